@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* gjk: what the four variants share.
+ *
+ *   gjk2_   2-D double      gjk2f_   2-D float
+ *   gjk3_   3-D double      gjk3f_   3-D float
+ *
+ * All four live side by side in one library; the name says dimension and precision, f as in sqrt and sqrtf. */
+#ifndef GJK_COMMON_H
+#define GJK_COMMON_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define GJK_VERSION_MAJOR 0
+#define GJK_VERSION_MINOR 1
+#define GJK_VERSION_PATCH 0
+
+#if defined(GJK_STATIC)
+#define GJK_API
+#elif defined(_WIN32)
+#if defined(GJK_BUILDING)
+#define GJK_API __declspec(dllexport)
+#else
+#define GJK_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define GJK_API __attribute__((visibility("default")))
+#else
+#define GJK_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*[cdef]*/
+
+/* The sign is the meaning: from 0 up the bracket holds, below 0 the caller has erred and *out is untouched. */
+enum gjk_status {
+    GJK_OK = 0,            /* the bracket is as tight as asked */
+    GJK_DECIDED = 1,       /* stopped early, the question being settled: a sign proven, or the cutoff passed */
+    GJK_FLOOR = 2,         /* rounding allows no more: the bracket is wider than asked, or straddles contact */
+    GJK_LIMIT = 3,         /* stopped at max_steps */
+    GJK_BAD_ARGUMENT = -1, /* a null pointer, a number that is not finite or negative, options from the future */
+    GJK_BAD_SUPPORT = -2   /* a support gave a point that is not finite, or points that contradict each other */
+};
+
+/* The library's own version: major * 10000 + minor * 100 + patch. */
+GJK_API uint32_t gjk_version(void);
+
+/* "ok", "decided", "floor", "limit", "bad argument", "bad support"; "unknown" for any other number. */
+GJK_API const char *gjk_status_name(int status);
+
+/*[/cdef]*/
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef GJK2_H
+#define GJK2_H
+
+#include "common.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*[cdef]*/
+
+/* gjk2: questions about pairs of convex sets in 2-D.
+ *
+ * The contract, once, for every function:
+ *   lengths   any unit, one unit. There are no angles.
+ *   frame     the poses put both shapes in one frame; points and normals come back in that frame.
+ *   memory    pointers are borrowed for the call. Nothing is kept, nothing is allocated.
+ *   threads   no global state. Calls may run at once unless they share a cache.
+ *   truth     status >= 0: lower <= answer <= upper holds, rounding included.
+ *             status < 0: the caller's mistake, *out untouched.
+ *   return    the status, also found in the result. */
+
+/* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero, but not unit.
+ * Equal inputs must give equal outputs.
+ *
+ * Returns the reach of the set: no point of it lies farther than this from its own origin. A bound will do; it
+ * enters the bracket's rounding terms only. 0: not known, and the library makes four more calls to find out.
+ *
+ * The bracket allows for the support's own rounding: the point may fall short of the farthest, or stand off
+ * the set, by up to 8 units of roundoff times the reach. What falls shorter is declared in options.slack. */
+typedef double gjk2_support_fn(const void *data, const double dir[2], double point[2]);
+
+/* x goes to m x + p. m by rows, any linear map: it may rotate, scale, shear, mirror or flatten. */
+typedef struct gjk2_pose {
+    double m[4];
+    double p[2];
+} gjk2_pose;
+
+/* The set { m x + p : x in the support's set } grown by a ball. */
+typedef struct gjk2_shape {
+    gjk2_support_fn *support; /* yours, or a ready-made one */
+    const void *data;         /* handed to support */
+    const gjk2_pose *pose;    /* NULL: identity. For large worlds give b relative to a, and a none */
+    double radius;            /* of the ball; 0 keeps corners sharp */
+} gjk2_shape;
+
+/* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
+ * same pair. Poses and radii may change between queries, and one cache may meet other shapes: it then costs
+ * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer:
+ * zero the count after such an edit. */
+typedef struct gjk2_cache {
+    double a[3][2], b[3][2];     /* points of the two sets, in their own coordinates */
+    double reach_a, reach_b;     /* of the two sets */
+    gjk2_support_fn *support[2]; /* whose points they are */
+    const void *data[2];
+    uint32_t count, reserved;
+} gjk2_cache;
+
+/* The one struct that grows. Zero in a field means its default; NULL options mean all defaults. */
+typedef struct gjk2_options {
+    uint32_t size;        /* sizeof(gjk2_options) in your build */
+    uint32_t max_steps;   /* 0: 256. One step is one support call on each shape */
+    double abs_tol;       /* stop at upper - lower <= abs_tol + rel_tol * upper; */
+    double rel_tol;       /*   both 0: as tight as rounding allows */
+    double cutoff;        /* > 0: stop once the answer is proven above it */
+    double slack;         /* how far a support may fall short of the farthest point, beyond its rounding */
+    gjk2_cache *cache;    /* NULL: start cold */
+    const void *reserved; /* NULL */
+} gjk2_options;
+
+/* Never grows. */
+typedef struct gjk2_result {
+    double value;        /* the answer, inside the bracket */
+    double lower, upper; /* proven */
+    double point_a[2];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
+    double point_b[2];   /*   meeting, one and the same point of both */
+    double normal[2];    /* unit, from a to b, always: the direction that realises lower */
+    int32_t status;
+    int32_t steps;    /* taken */
+    int32_t supports; /* support calls, both shapes together */
+    int32_t reserved;
+} gjk2_result;
+
+/* How far apart? 0 where the shapes meet. */
+GJK_API int gjk2_distance(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
+
+/* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
+ * the depth of the overlap, and is only as tight as the proof needs:
+ *   lower > 0   apart             value = lower
+ *   upper < 0   overlapping       value = upper
+ *   else        not told apart    value = 0; status GJK_FLOOR: they touch, to this precision
+ * abs_tol, rel_tol and cutoff play no part. */
+GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
+
+/* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
+ * a set without points, comes back as GJK_BAD_SUPPORT. A disc, a capsule or a rounded box is cheapest as
+ * origin, segment or box with a radius in its shape; an ellipse is a ball under a pose that stretches. */
+
+/* The convex hull of a point cloud. */
+typedef struct gjk2_points {
+    const double *v;   /* the first point */
+    size_t count;      /* of points */
+    uint32_t stride;   /* from point to point, in bytes, a multiple of sizeof(double); 0: packed */
+    uint32_t reserved; /* 0 */
+    double reach;      /* from gjk2_points_reach; 0: not known, found at the price of four more support calls */
+} gjk2_points;
+GJK_API double gjk2_support_points(const void *points, const double dir[2], double point[2]);
+/* The largest distance of a point of the cloud from the origin, rounded up. NaN: bad points. */
+GJK_API double gjk2_points_reach(const gjk2_points *points);
+
+/* |x| <= half[0], |y| <= half[1] */
+typedef struct gjk2_box {
+    double half[2];
+} gjk2_box;
+GJK_API double gjk2_support_box(const void *box, const double dir[2], double point[2]);
+
+/* From v[0] to v[1]. */
+typedef struct gjk2_segment {
+    double v[2][2];
+} gjk2_segment;
+GJK_API double gjk2_support_segment(const void *segment, const double dir[2], double point[2]);
+
+/* The one point 0; data is not read. */
+GJK_API double gjk2_support_origin(const void *unused, const double dir[2], double point[2]);
+
+/* |x| <= radius */
+typedef struct gjk2_ball {
+    double radius;
+} gjk2_ball;
+GJK_API double gjk2_support_ball(const void *ball, const double dir[2], double point[2]);
+
+/* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
+ * couples, never itself. */
+typedef struct gjk2_couple {
+    gjk2_shape a, b;
+} gjk2_couple;
+/* { x + y : x in a, y in b } */
+GJK_API double gjk2_support_sum(const void *couple, const double dir[2], double point[2]);
+/* the convex hull of a and b */
+GJK_API double gjk2_support_hull(const void *couple, const double dir[2], double point[2]);
+
+/*[/cdef]*/
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/* Made from gjk2.h by src/twins.cmake. */
+#ifndef GJK2F_H
+#define GJK2F_H
+
+#include "common.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*[cdef]*/
+
+/* gjk2f: questions about pairs of convex sets in 2-D.
+ *
+ * The contract, once, for every function:
+ *   lengths   any unit, one unit. There are no angles.
+ *   frame     the poses put both shapes in one frame; points and normals come back in that frame.
+ *   memory    pointers are borrowed for the call. Nothing is kept, nothing is allocated.
+ *   threads   no global state. Calls may run at once unless they share a cache.
+ *   truth     status >= 0: lower <= answer <= upper holds, rounding included.
+ *             status < 0: the caller's mistake, *out untouched.
+ *   return    the status, also found in the result. */
+
+/* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero, but not unit.
+ * Equal inputs must give equal outputs.
+ *
+ * Returns the reach of the set: no point of it lies farther than this from its own origin. A bound will do; it
+ * enters the bracket's rounding terms only. 0: not known, and the library makes four more calls to find out.
+ *
+ * The bracket allows for the support's own rounding: the point may fall short of the farthest, or stand off
+ * the set, by up to 8 units of roundoff times the reach. What falls shorter is declared in options.slack. */
+typedef float gjk2f_support_fn(const void *data, const float dir[2], float point[2]);
+
+/* x goes to m x + p. m by rows, any linear map: it may rotate, scale, shear, mirror or flatten. */
+typedef struct gjk2f_pose {
+    float m[4];
+    float p[2];
+} gjk2f_pose;
+
+/* The set { m x + p : x in the support's set } grown by a ball. */
+typedef struct gjk2f_shape {
+    gjk2f_support_fn *support; /* yours, or a ready-made one */
+    const void *data;         /* handed to support */
+    const gjk2f_pose *pose;    /* NULL: identity. For large worlds give b relative to a, and a none */
+    float radius;            /* of the ball; 0 keeps corners sharp */
+} gjk2f_shape;
+
+/* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
+ * same pair. Poses and radii may change between queries, and one cache may meet other shapes: it then costs
+ * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer:
+ * zero the count after such an edit. */
+typedef struct gjk2f_cache {
+    float a[3][2], b[3][2];     /* points of the two sets, in their own coordinates */
+    float reach_a, reach_b;     /* of the two sets */
+    gjk2f_support_fn *support[2]; /* whose points they are */
+    const void *data[2];
+    uint32_t count, reserved;
+} gjk2f_cache;
+
+/* The one struct that grows. Zero in a field means its default; NULL options mean all defaults. */
+typedef struct gjk2f_options {
+    uint32_t size;        /* sizeof(gjk2f_options) in your build */
+    uint32_t max_steps;   /* 0: 256. One step is one support call on each shape */
+    float abs_tol;       /* stop at upper - lower <= abs_tol + rel_tol * upper; */
+    float rel_tol;       /*   both 0: as tight as rounding allows */
+    float cutoff;        /* > 0: stop once the answer is proven above it */
+    float slack;         /* how far a support may fall short of the farthest point, beyond its rounding */
+    gjk2f_cache *cache;    /* NULL: start cold */
+    const void *reserved; /* NULL */
+} gjk2f_options;
+
+/* Never grows. */
+typedef struct gjk2f_result {
+    float value;        /* the answer, inside the bracket */
+    float lower, upper; /* proven */
+    float point_a[2];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
+    float point_b[2];   /*   meeting, one and the same point of both */
+    float normal[2];    /* unit, from a to b, always: the direction that realises lower */
+    int32_t status;
+    int32_t steps;    /* taken */
+    int32_t supports; /* support calls, both shapes together */
+    int32_t reserved;
+} gjk2f_result;
+
+/* How far apart? 0 where the shapes meet. */
+GJK_API int gjk2f_distance(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
+
+/* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
+ * the depth of the overlap, and is only as tight as the proof needs:
+ *   lower > 0   apart             value = lower
+ *   upper < 0   overlapping       value = upper
+ *   else        not told apart    value = 0; status GJK_FLOOR: they touch, to this precision
+ * abs_tol, rel_tol and cutoff play no part. */
+GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
+
+/* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
+ * a set without points, comes back as GJK_BAD_SUPPORT. A disc, a capsule or a rounded box is cheapest as
+ * origin, segment or box with a radius in its shape; an ellipse is a ball under a pose that stretches. */
+
+/* The convex hull of a point cloud. */
+typedef struct gjk2f_points {
+    const float *v;   /* the first point */
+    size_t count;      /* of points */
+    uint32_t stride;   /* from point to point, in bytes, a multiple of sizeof(float); 0: packed */
+    uint32_t reserved; /* 0 */
+    float reach;      /* from gjk2f_points_reach; 0: not known, found at the price of four more support calls */
+} gjk2f_points;
+GJK_API float gjk2f_support_points(const void *points, const float dir[2], float point[2]);
+/* The largest distance of a point of the cloud from the origin, rounded up. NaN: bad points. */
+GJK_API float gjk2f_points_reach(const gjk2f_points *points);
+
+/* |x| <= half[0], |y| <= half[1] */
+typedef struct gjk2f_box {
+    float half[2];
+} gjk2f_box;
+GJK_API float gjk2f_support_box(const void *box, const float dir[2], float point[2]);
+
+/* From v[0] to v[1]. */
+typedef struct gjk2f_segment {
+    float v[2][2];
+} gjk2f_segment;
+GJK_API float gjk2f_support_segment(const void *segment, const float dir[2], float point[2]);
+
+/* The one point 0; data is not read. */
+GJK_API float gjk2f_support_origin(const void *unused, const float dir[2], float point[2]);
+
+/* |x| <= radius */
+typedef struct gjk2f_ball {
+    float radius;
+} gjk2f_ball;
+GJK_API float gjk2f_support_ball(const void *ball, const float dir[2], float point[2]);
+
+/* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
+ * couples, never itself. */
+typedef struct gjk2f_couple {
+    gjk2f_shape a, b;
+} gjk2f_couple;
+/* { x + y : x in a, y in b } */
+GJK_API float gjk2f_support_sum(const void *couple, const float dir[2], float point[2]);
+/* the convex hull of a and b */
+GJK_API float gjk2f_support_hull(const void *couple, const float dir[2], float point[2]);
+
+/*[/cdef]*/
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef GJK3_H
+#define GJK3_H
+
+#include "common.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*[cdef]*/
+
+/* gjk3: questions about pairs of convex sets in 3-D.
+ *
+ * The contract, once, for every function:
+ *   lengths   any unit, one unit. There are no angles.
+ *   frame     the poses put both shapes in one frame; points and normals come back in that frame.
+ *   memory    pointers are borrowed for the call. Nothing is kept, nothing is allocated.
+ *   threads   no global state. Calls may run at once unless they share a cache.
+ *   truth     status >= 0: lower <= answer <= upper holds, rounding included.
+ *             status < 0: the caller's mistake, *out untouched.
+ *   return    the status, also found in the result. */
+
+/* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero, but not unit.
+ * Equal inputs must give equal outputs.
+ *
+ * Returns the reach of the set: no point of it lies farther than this from its own origin. A bound will do; it
+ * enters the bracket's rounding terms only. 0: not known, and the library makes six more calls to find out.
+ *
+ * The bracket allows for the support's own rounding: the point may fall short of the farthest, or stand off
+ * the set, by up to 8 units of roundoff times the reach. What falls shorter is declared in options.slack. */
+typedef double gjk3_support_fn(const void *data, const double dir[3], double point[3]);
+
+/* x goes to m x + p. m by rows, any linear map: it may rotate, scale, shear, mirror or flatten. */
+typedef struct gjk3_pose {
+    double m[9];
+    double p[3];
+} gjk3_pose;
+
+/* The set { m x + p : x in the support's set } grown by a ball. */
+typedef struct gjk3_shape {
+    gjk3_support_fn *support; /* yours, or a ready-made one */
+    const void *data;         /* handed to support */
+    const gjk3_pose *pose;    /* NULL: identity. For large worlds give b relative to a, and a none */
+    double radius;            /* of the ball; 0 keeps corners sharp */
+} gjk3_shape;
+
+/* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
+ * same pair. Poses and radii may change between queries, and one cache may meet other shapes: it then costs
+ * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer:
+ * zero the count after such an edit. */
+typedef struct gjk3_cache {
+    double a[4][3], b[4][3];     /* points of the two sets, in their own coordinates */
+    double reach_a, reach_b;     /* of the two sets */
+    gjk3_support_fn *support[2]; /* whose points they are */
+    const void *data[2];
+    uint32_t count, reserved;
+} gjk3_cache;
+
+/* The one struct that grows. Zero in a field means its default; NULL options mean all defaults. */
+typedef struct gjk3_options {
+    uint32_t size;        /* sizeof(gjk3_options) in your build */
+    uint32_t max_steps;   /* 0: 256. One step is one support call on each shape */
+    double abs_tol;       /* stop at upper - lower <= abs_tol + rel_tol * upper; */
+    double rel_tol;       /*   both 0: as tight as rounding allows */
+    double cutoff;        /* > 0: stop once the answer is proven above it */
+    double slack;         /* how far a support may fall short of the farthest point, beyond its rounding */
+    gjk3_cache *cache;    /* NULL: start cold */
+    const void *reserved; /* NULL */
+} gjk3_options;
+
+/* Never grows. */
+typedef struct gjk3_result {
+    double value;        /* the answer, inside the bracket */
+    double lower, upper; /* proven */
+    double point_a[3];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
+    double point_b[3];   /*   meeting, one and the same point of both */
+    double normal[3];    /* unit, from a to b, always: the direction that realises lower */
+    int32_t status;
+    int32_t steps;    /* taken */
+    int32_t supports; /* support calls, both shapes together */
+    int32_t reserved;
+} gjk3_result;
+
+/* How far apart? 0 where the shapes meet. */
+GJK_API int gjk3_distance(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
+
+/* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
+ * the depth of the overlap, and is only as tight as the proof needs:
+ *   lower > 0   apart             value = lower
+ *   upper < 0   overlapping       value = upper
+ *   else        not told apart    value = 0; status GJK_FLOOR: they touch, to this precision
+ * abs_tol, rel_tol and cutoff play no part. */
+GJK_API int gjk3_intersect(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
+
+/* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
+ * a set without points, comes back as GJK_BAD_SUPPORT. A ball, a capsule or a rounded box is cheapest as
+ * origin, segment or box with a radius in its shape; an ellipsoid is a ball under a pose that stretches. */
+
+/* The convex hull of a point cloud. */
+typedef struct gjk3_points {
+    const double *v;   /* the first point */
+    size_t count;      /* of points */
+    uint32_t stride;   /* from point to point, in bytes, a multiple of sizeof(double); 0: packed */
+    uint32_t reserved; /* 0 */
+    double reach;      /* from gjk3_points_reach; 0: not known, found at the price of six more support calls */
+} gjk3_points;
+GJK_API double gjk3_support_points(const void *points, const double dir[3], double point[3]);
+/* The largest distance of a point of the cloud from the origin, rounded up. NaN: bad points. */
+GJK_API double gjk3_points_reach(const gjk3_points *points);
+
+/* |x| <= half[0], |y| <= half[1], |z| <= half[2] */
+typedef struct gjk3_box {
+    double half[3];
+} gjk3_box;
+GJK_API double gjk3_support_box(const void *box, const double dir[3], double point[3]);
+
+/* From v[0] to v[1]. */
+typedef struct gjk3_segment {
+    double v[2][3];
+} gjk3_segment;
+GJK_API double gjk3_support_segment(const void *segment, const double dir[3], double point[3]);
+
+typedef struct gjk3_triangle {
+    double v[3][3];
+} gjk3_triangle;
+GJK_API double gjk3_support_triangle(const void *triangle, const double dir[3], double point[3]);
+
+/* The one point 0; data is not read. */
+GJK_API double gjk3_support_origin(const void *unused, const double dir[3], double point[3]);
+
+/* |x| <= radius */
+typedef struct gjk3_ball {
+    double radius;
+} gjk3_ball;
+GJK_API double gjk3_support_ball(const void *ball, const double dir[3], double point[3]);
+
+/* x^2 + y^2 <= radius^2, |z| <= half_length */
+typedef struct gjk3_cylinder {
+    double radius, half_length;
+} gjk3_cylinder;
+GJK_API double gjk3_support_cylinder(const void *cylinder, const double dir[3], double point[3]);
+
+/* The hull of the apex (0, 0, half_length) and the disc at z = -half_length. */
+typedef struct gjk3_cone {
+    double radius, half_length;
+} gjk3_cone;
+GJK_API double gjk3_support_cone(const void *cone, const double dir[3], double point[3]);
+
+/* x^2 + y^2 <= radius^2, z = 0 */
+typedef struct gjk3_disc {
+    double radius;
+} gjk3_disc;
+GJK_API double gjk3_support_disc(const void *disc, const double dir[3], double point[3]);
+
+/* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
+ * couples, never itself. */
+typedef struct gjk3_couple {
+    gjk3_shape a, b;
+} gjk3_couple;
+/* { x + y : x in a, y in b } */
+GJK_API double gjk3_support_sum(const void *couple, const double dir[3], double point[3]);
+/* the convex hull of a and b */
+GJK_API double gjk3_support_hull(const void *couple, const double dir[3], double point[3]);
+
+/*[/cdef]*/
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT */
+/* The door: arguments are checked on the way in, the result is written on the way out, once and whole. */
+#ifndef GJK_CORE_API_H
+#define GJK_CORE_API_H
+
+#include "intersect.h"
+#include "shapes.h"
+
+#define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to: a size field that was never set */
+
+static int sound(const shape *s)
+{
+    if (!s || !s->support || !(s->radius >= 0 && s->radius <= REAL_MAX / 16)) return 0;
+    if (!s->pose) return 1;
+    int r = 1;
+    for (int i = 0; i < DIM * DIM; i++) r &= bounded(s->pose->m[i]);
+    for (int i = 0; i < DIM; i++) r &= bounded(s->pose->p[i]);
+    return r;
+}
+
+/* Options of any age: a shorter struct ends before the pointers, or after one; what a longer one says beyond the end of
+ * ours must be nothing. */
+static int read_options(options *o, const options *given)
+{
+    const unsigned char *from = (const unsigned char *)given;
+    uint32_t given_size = sizeof *o;
+    memset(o, 0, sizeof *o);
+    if (given) {
+        given_size = given->size;
+        if (given_size < offsetof(options, cache) || given_size > OPTIONS_LARGEST) return 0;
+        if (given_size < sizeof *o && (given_size - offsetof(options, cache)) % sizeof(void *) != 0) return 0;
+        for (size_t i = sizeof *o; i < given_size; i++)
+            if (from[i] != 0) return 0;
+        memcpy(o, given, given_size < sizeof *o ? given_size : sizeof *o);
+    }
+    if (o->max_steps == 0) o->max_steps = 256;
+    if (o->max_steps > INT32_MAX / 4) o->max_steps = INT32_MAX / 4;
+    return o->abs_tol >= 0 && o->rel_tol >= 0 && o->cutoff >= 0 && o->slack >= 0 && o->slack <= REAL_MAX &&
+           o->reserved == NULL;
+}
+
+/* What a later query of this pair may start from. */
+static void remember(cache *k, const search *q, const shape *a, const shape *b)
+{
+    int n = q->s.n, lent = 1;
+    for (int i = 0; i < n; i++) lent &= (int)(q->borrowed >> q->s.at[i] & 1);
+    if (lent && q->repeated) return; /* nothing new: the cache may hold more than this simplex */
+    for (int i = 0; i < n; i++) {
+        store(k->a[i], q->s.slot[q->s.at[i]].x);
+        store(k->b[i], q->s.slot[q->s.at[i]].y);
+    }
+    if (n <= DIM && !q->repeated) { /* as near as the others: the next query may be answered with it */
+        store(k->a[n], q->last.x);
+        store(k->b[n], q->last.y);
+        n++;
+    }
+    k->count = (uint32_t)n;
+    k->reserved = 0;
+    k->reach_a = q->d.a.reach;
+    k->reach_b = q->d.b.reach;
+    k->support[0] = a->support;
+    k->support[1] = b->support;
+    k->data[0] = a->data;
+    k->data[1] = b->data;
+}
+
+/* The goal in the search's scale. */
+static goal scaled(const goal *g, real scale)
+{
+    goal r = *g;
+    r.beyond = smaller(g->beyond * scale, REAL_MAX);
+    r.within = smaller(g->within * scale, REAL_MAX);
+    r.radius = smaller(g->radius * scale, REAL_MAX);
+    r.abs_tol = smaller(g->abs_tol * scale, REAL_MAX);
+    return r;
+}
+
+/* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation; FAULT
+ * also where the bounds cross, which points of two convex sets never do. */
+static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, real *upper, real weight[])
+{
+    int warm = o->cache != NULL;
+    enum end end;
+    q->steps = 0;
+    q->d.calls = 0;
+    for (;;) {
+        end = FAULT;
+        if (warm) warm = open_warm(q, a, b, o->slack, o->cache);
+        if (warm || open_cold(q, a, b, o->slack)) {
+            goal here = scaled(g, q->d.scale);
+            end = descend(q, &here);
+        }
+        if (end != FAULT) {
+            *upper = certify(q, weight);
+            if (end == INSIDE && room(&q->s) > q->d.doubt) *upper = q->d.doubt - room(&q->s);
+            if (q->lower <= *upper && settled(q)) break;
+        }
+        if (!warm) return FAULT;
+        warm = 0;
+    }
+    if (o->cache) remember(o->cache, q, a, b);
+    return end;
+}
+
+/* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
+static void bracket(result *r, const difference *d, real lower, real upper, real radius)
+{
+    real tiny = d->wild ? 2 * TINY : 0, near = lower * d->unscale, far = upper * d->unscale;
+    real doubt_near = radius > 0 ? 4 * UNIT * (size(near) + radius) : 0;
+    real doubt_far = radius > 0 ? 4 * UNIT * (size(far) + radius) : 0;
+    r->lower = near - radius - doubt_near - tiny;
+    r->upper = far - radius + doubt_far + tiny;
+}
+
+/* All but value and bracket. */
+static void describe(result *r, const search *q, const real weight[], const shape *a, const shape *b, int meeting)
+{
+    vec on_a = blend(&q->s, weight, offsetof(vertex, x)), on_b = blend(&q->s, weight, offsetof(vertex, y));
+    if (a->pose) on_a = add(map(a->pose->m, on_a), load(a->pose->p));
+    if (b->pose) on_b = add(map(b->pose->m, on_b), load(b->pose->p));
+    if (meeting) { /* one point between the cores' that is in both shapes */
+        real share = a->radius > 0 ? a->radius / (a->radius + b->radius) : 0;
+        on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
+    } else if (a->radius > 0 || b->radius > 0) {
+        vec toward_b = q->vv > 0 ? mul(q->v, -1 / root(q->vv)) : q->normal;
+        on_a = add(on_a, mul(toward_b, a->radius));
+        on_b = sub(on_b, mul(toward_b, b->radius));
+    }
+    store(r->point_a, on_a);
+    store(r->point_b, on_b);
+    store(r->normal, q->normal);
+    r->steps = q->steps;
+    r->supports = q->d.calls;
+    r->reserved = 0;
+}
+
+static int distance_status(const result *r, const options *o, enum end end, real rounding)
+{
+    real width = r->upper - r->lower, asked = o->abs_tol + o->rel_tol * r->upper;
+    if (end == BEYOND) return GJK_DECIDED;
+    if (width <= asked || end == WITHIN) return GJK_OK;
+    if (end == OPEN) return GJK_LIMIT;
+    return o->abs_tol == 0 && o->rel_tol == 0 && width <= rounding ? GJK_OK : GJK_FLOOR;
+}
+
+GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
+{
+    options o;
+    search q;
+    result r;
+    real weight[DIM + 1], upper;
+    if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
+    real radius = a->radius + b->radius;
+    goal g = {REAL_MAX, -1, radius, o.abs_tol, o.rel_tol, (int)o.max_steps};
+    if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
+    if (radius > 0) g.within = radius * (1 - 16 * UNIT);
+
+    enum end end = run(&q, a, b, &o, &g, &upper, weight);
+    if (end == FAULT) return GJK_BAD_SUPPORT;
+    bracket(&r, &q.d, q.lower, upper, radius);
+    int meeting = r.upper <= 0;
+    r.upper = larger(r.upper, 0);
+    r.lower = larger(r.lower, 0);
+    r.value = smaller(larger(root(q.vv) * q.d.unscale - radius, r.lower), r.upper);
+    describe(&r, &q, weight, a, b, meeting);
+    real rounding = (4 * q.d.doubt + 2 * q.d.slack) * q.d.unscale + 16 * UNIT * radius;
+    r.status = distance_status(&r, &o, end, rounding);
+    *out = r;
+    return r.status;
+}
+
+GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
+{
+    options o;
+    search q;
+    result r;
+    real weight[DIM + 1], upper;
+    if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
+    real radius = a->radius + b->radius;
+    goal g = {radius * (1 + 16 * UNIT), radius * (1 - 16 * UNIT), radius, -1, 0, (int)o.max_steps};
+
+    enum end end = run(&q, a, b, &o, &g, &upper, weight);
+    if (end == FAULT) return GJK_BAD_SUPPORT;
+    bracket(&r, &q.d, q.lower, upper, radius);
+    if (!(r.lower > 0 || r.upper < 0) && q.lower <= 0 && end != OPEN) {
+        real lower, overlap;
+        end = probe(&q, g.max_steps, &lower, &overlap);
+        if (end == FAULT) return GJK_BAD_SUPPORT;
+        if (end == BEYOND) q.lower = larger(q.lower, lower);
+        if (end == WITHIN) upper = smaller(upper, overlap);
+        bracket(&r, &q.d, q.lower, upper, radius);
+    }
+    r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
+    describe(&r, &q, weight, a, b, r.upper < 0);
+    r.status = r.value != 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
+    *out = r;
+    return r.status;
+}
+
+#endif

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: MIT */
+/* The search: GJK with a bracket.
+ *
+ * v is the point of the simplex nearest the origin; the next corner is the one that lies least along v. Of the signed
+ * separation of the two sets (distance apart, minus depth overlapping) this proves
+ *     from below: the corner's height v.w / |v|, for any v at all,
+ *     from above: the length of any convex combination of corners; minus the room around the origin inside a full simplex.
+ *
+ * It ends: each step either raises the steps' count to its limit, or finds |v| smaller than ever before, or stops. */
+#ifndef GJK_CORE_DISTANCE_H
+#define GJK_CORE_DISTANCE_H
+
+#include "minkowski.h"
+
+/* What would settle the question, in lengths of the scaled frame. */
+typedef struct goal {
+    real beyond;           /* stop when proven to be more than this apart */
+    real within;           /* stop when proven to be less than this apart */
+    real radius;           /* of both bodies together */
+    real abs_tol, rel_tol; /* stop at upper - lower <= abs_tol + rel_tol * (upper - radius) */
+    int max_steps;
+} goal;
+
+enum end {
+    BEYOND, /* more than goal.beyond apart */
+    WITHIN, /* less than goal.within apart */
+    CLOSE,  /* bracket as narrow as goal's tolerances ask */
+    STILL,  /* no corner brings v nearer: v is nearest, to rounding */
+    INSIDE, /* a full simplex holds the origin, to rounding */
+    OPEN,   /* none of these: goal.max_steps are used up */
+    FAULT   /* a support's answer was none */
+};
+
+typedef struct search {
+    difference d;
+    simplex s;
+    vec v;
+    real vv;      /* v.v; REAL_MAX before there is a simplex */
+    real lower;   /* of the signed separation */
+    vec normal;   /* unit, from A to B: where lower was found */
+    vertex last;  /* the corner last asked for */
+    int repeated; /* it stood in the simplex already */
+    int steps;
+    const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
+    unsigned borrowed;   /* slots that still hold them */
+} search;
+
+/* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. */
+static real certify(const search *q, real weight[DIM + 1])
+{
+    weigh(&q->s, weight);
+    return length(blend(&q->s, weight, offsetof(vertex, w))) * (1 + 8 * UNIT) + q->d.doubt;
+}
+
+/* The last corner's height along v bounds the separation from below. */
+static void raise(search *q)
+{
+    real l = length(q->v), height = dot(q->v, q->last.w) / l;
+    real lower = height - 4 * UNIT * (size(height) + dot_size(q->v, q->last.w) / l) - q->d.doubt - q->d.slack;
+    if (!(lower > q->lower)) return;
+    q->lower = lower;
+    q->normal = mul(q->v, -1 / l);
+}
+
+static int repeats(const vertex *p, const vertex *q) { return same(p->x, q->x) & same(p->y, q->y); }
+
+/* Takes the last corner into the simplex. 0, and nothing changed, where that brings v no nearer. */
+static int advance(search *q)
+{
+    simplex *s = &q->s;
+    int at[DIM + 1], n = s->n;
+    memcpy(at, s->at, sizeof at);
+    append(s, &q->last);
+    q->borrowed &= ~(1u << at[n]);
+    vec v = nearest(s);
+    real vv = dot(v, v);
+    if (!(vv < q->vv)) { /* once more without assumptions */
+        memcpy(s->at, at, sizeof at);
+        s->n = n + 1;
+        v = nearest_of_all(s);
+        vv = dot(v, v);
+    }
+    if (!(vv < q->vv)) {
+        memcpy(s->at, at, sizeof at);
+        s->n = n;
+        return 0;
+    }
+    q->v = v;
+    q->vv = vv;
+    return 1;
+}
+
+/* What the last corner shows; OPEN where the search may go on. */
+static enum end consider(search *q, const goal *g)
+{
+    real weight[DIM + 1];
+    q->steps++;
+    raise(q);
+    if (q->lower > g->beyond) {
+        if (q->s.n == 0) advance(q);
+        return BEYOND;
+    }
+    if (q->s.n > 0) {
+        real gap = q->vv - dot(q->v, q->last.w);
+        for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), &q->last);
+        if (q->repeated || !(gap > 2 * UNIT * dot_size(q->v, q->last.w))) return STILL;
+    }
+    if (!advance(q)) return STILL;
+    if (q->s.n == DIM + 1) return INSIDE;
+    if (!(q->vv > UNIT * UNIT / 4)) return STILL; /* the scaled frame is of size 1 to 4: v is noise */
+    real upper = root(q->vv) + q->d.doubt;
+    if (upper < g->within && certify(q, weight) < g->within) return WITHIN;
+    if (upper - q->lower <= g->abs_tol + g->rel_tol * (upper - g->radius)) return CLOSE;
+    return OPEN;
+}
+
+/* A corner has been asked for. One of the lender's, to the bit, and the sets are still those that it knew. */
+static int known(search *q)
+{
+    const cache *k = q->lender;
+    if (!k) return 0;
+    for (uint32_t i = 0; i < k->count; i++) {
+        if (!same(load(k->a[i]), q->last.x) || !same(load(k->b[i]), q->last.y)) continue;
+        q->lender = NULL;
+        return 1;
+    }
+    return 0;
+}
+
+/* Walks on from q->last, the corner least along q->v. */
+static enum end descend(search *q, const goal *g)
+{
+    real reach[2];
+    if (!(q->vv > UNIT * UNIT / 4)) return q->s.n > DIM ? INSIDE : STILL;
+    for (;;) {
+        enum end end = consider(q, g);
+        if (end != OPEN || q->steps >= g->max_steps) return end;
+        if (!ask(&q->d, q->v, &q->last, reach)) return FAULT;
+        known(q);
+    }
+}
+
+static void blank(search *q)
+{
+    clear(&q->s);
+    q->vv = REAL_MAX;
+    q->lower = -REAL_MAX;
+    q->normal = axis(0, 1);
+    q->repeated = 0;
+    q->lender = NULL;
+    q->borrowed = 0;
+}
+
+/* A direction along which the simplex's first corner is likely the least: v, tilted away from the others. */
+static vec away(const search *q)
+{
+    vec middle = axis(0, 0), p = point(&q->s, 0);
+    for (int i = 0; i < q->s.n; i++) middle = add(middle, mul(point(&q->s, i), (real)1 / (real)q->s.n));
+    vec tilt = sub(middle, p);
+    real long_side = peak(tilt), far = peak(q->v);
+    if (!(far > 0)) return long_side > 0 ? tilt : axis(0, 1);
+    return long_side > 0 ? add(q->v, mul(tilt, far / long_side / 1024)) : q->v;
+}
+
+/* From nothing. */
+static int open_cold(search *q, const shape *a, const shape *b, real slack)
+{
+    blank(q);
+    start(&q->d, a, b);
+    q->v = first_direction(&q->d);
+    return meet(&q->d, q->v, slack, &q->last);
+}
+
+/* From the points of the last query, as corners on trust: they are points of these sets only if the sets still answer as
+ * they did. The search ends well if no borrowed corner is left in its simplex, or if one of the lender's points was handed
+ * out again, to the bit; see settled. The first call also tells whether the reaches are the same. */
+static int open_warm(search *q, const shape *a, const shape *b, real slack, const cache *k)
+{
+    real reach[2];
+    blank(q);
+    start(&q->d, a, b);
+    if (k->count == 0 || k->count > DIM + 1) return 0;
+    if (k->support[0] != a->support || k->support[1] != b->support) return 0;
+    if (k->data[0] != a->data || k->data[1] != b->data) return 0;
+    if (!(k->reach_a > 0 && k->reach_a <= REAL_MAX && k->reach_b > 0 && k->reach_b <= REAL_MAX)) return 0;
+    q->d.a.reach = k->reach_a;
+    q->d.b.reach = k->reach_b;
+    if (!settle(&q->d, slack)) return 0;
+    for (uint32_t i = 0; i < k->count; i++) {
+        vertex p = {axis(0, 0), load(k->a[i]), load(k->b[i])};
+        if (!fits(&q->d.a, p.x) || !fits(&q->d.b, p.y)) return 0;
+        p.w = corner_of(&q->d, p.x, p.y);
+        append(&q->s, &p);
+    }
+    q->lender = k;
+    q->borrowed = (1u << k->count) - 1;
+    q->v = nearest_of_all(&q->s);
+    q->vv = dot(q->v, q->v);
+    if (!(q->vv > UNIT * UNIT / 4)) q->v = away(q);
+    if (!ask(&q->d, q->v, &q->last, reach)) return 0;
+    if (reach[0] != 0 && larger(reach[0], 8 * REAL_MIN) != k->reach_a) return 0;
+    if (reach[1] != 0 && larger(reach[1], 8 * REAL_MIN) != k->reach_b) return 0;
+    q->repeated = known(q);
+    if (q->vv > UNIT * UNIT / 4) return 1;
+    q->steps++; /* on the origin, where v has no direction: a corner handed out again is all that is wanted */
+    raise(q);
+    return q->repeated;
+}
+
+/* Whether the simplex's corners are points of the sets for certain. Where none of the lender's points came back by itself,
+ * one more corner is asked for, along v tilted a little toward one of them. */
+static int settled(search *q)
+{
+    real reach[2];
+    unsigned left = 0;
+    for (int i = 0; i < q->s.n; i++) left |= q->borrowed & 1u << q->s.at[i];
+    if (!q->lender || !left) return 1;
+    vertex last = q->last;
+    int good = ask(&q->d, away(q), &q->last, reach) && known(q);
+    q->last = last;
+    return good;
+}
+
+#endif

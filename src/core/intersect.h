@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* Overlap where the search ends on its origin, or with it inside a simplex too thin to say: a ball around the origin is
+ * in A - B if the corners of a simplex around that ball are. So each of these corners in turn is the origin of a search;
+ * all come within a share of the ball's radius, and the sets overlap for certain; or one is proven to be outside, and
+ * the sets are as good as touching. No face is ever asked for its side. */
+#ifndef GJK_CORE_INTERSECT_H
+#define GJK_CORE_INTERSECT_H
+
+#include "distance.h"
+
+/* Corner k of a simplex that holds the unit ball around the origin; none is farther out than 4. */
+static vec outpost(int k)
+{
+#if DIM == 2
+    static const real corners[3][2] = {{0, 2}, {2, -1}, {-2, -1}};
+#else
+    static const real corners[4][3] = {{2, 2, 2}, {2, -2, -2}, {-2, 2, -2}, {-2, -2, 2}};
+#endif
+    return load(corners[k]);
+}
+
+/* Moves the origin of the search to t. */
+static void move(search *q, vec t)
+{
+    q->d.c = add(q->d.c, t);
+    for (int i = 0; i < q->s.n; i++) {
+        vertex *p = corner(&q->s, i);
+        p->w = corner_of(&q->d, p->x, p->y);
+    }
+    q->v = nearest_of_all(&q->s);
+    q->vv = dot(q->v, q->v);
+    q->lower = -REAL_MAX;
+    q->repeated = 0;
+}
+
+/* The search has ended on its origin. WITHIN: overlap by at least upper is proven. BEYOND: the separation is proven to be
+ * at least lower, a rounding's worth below 0. Else not told. The steps and calls are added to q's. */
+static enum end probe(search *q, int max_steps, real *lower, real *upper)
+{
+    search p = *q;
+    real ball = 4 * q->d.doubt, weight[DIM + 1], reach[2];
+    goal g = {0, (real)0.75 * ball, 0, -1, 0, max_steps};
+    enum end end = WITHIN;
+    for (int k = 0; k <= DIM && end == WITHIN; k++) {
+        p.d.c = q->d.c;
+        move(&p, mul(outpost(k), ball));
+        if (certify(&p, weight) < g.within) continue;
+        end = p.steps >= max_steps ? OPEN : !ask(&p.d, p.v, &p.last, reach) ? FAULT : descend(&p, &g);
+        if (end == INSIDE || end == STILL) end = certify(&p, weight) < g.within ? WITHIN : STILL;
+    }
+    q->steps = p.steps;
+    q->d.calls = p.d.calls;
+    *lower = -4 * ball;
+    *upper = g.within - ball;
+    return end;
+}
+
+#endif

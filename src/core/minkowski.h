@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+/* The difference A - B = { x - y : x in A, y in B }, seen through support calls. The only file that calls user code.
+ *
+ * The frame: A's own position is the origin, so that where the bodies are in the world costs nothing; everything is
+ * scaled by one power of two, which costs nothing either, so that squares and their squares stay within range. A corner
+ * of the difference is
+ *     w = m_a x - (m_b y + c),   c = p_b - p_a
+ *
+ * The rounding in it, in units of roundoff and in lengths of the scaled frame, with A = stretch(m_a) reach_a, B alike,
+ * stretch bounding every norm of m and of |m| in use (linear.h):
+ *     m x: 3 A,   c: |c|,   the two differences: A + 2 (B + |c|)              the corner:      5 A + 5 B + 3 |c|
+ *     the support's own licence, short or off the set:                        8 A + 8 B
+ *     the direction m^T d is off by 3 stretch |d|, across a set 2 reach wide: 6 A + 6 B
+ *     a convex combination of corners, each |w| <= A + B + |c|:               6 A + 6 B + 6 |c|
+ * A lower bound pays the first three, an upper bound the first, second and fourth. Both are charged
+ *     doubt = 20 A + 20 B + 10 |c|     (16 for a body without pose: no product, no direction to turn) */
+#ifndef GJK_CORE_MINKOWSKI_H
+#define GJK_CORE_MINKOWSKI_H
+
+#include "simplex.h"
+
+typedef struct body {
+    support_fn *support;
+    const void *data;
+    int posed;
+    real m[DIM * DIM]; /* the pose's map, times the scale once that is known */
+    real stretch;      /* bounds m, unscaled */
+    real reach;        /* bounds the set's points; 0: not known yet */
+    real ease;         /* brings m to size 1: for directions where sizes are wild */
+} body;
+
+typedef struct difference {
+    body a, b;
+    vec c;
+    real scale, unscale; /* powers of two */
+    real doubt;          /* rounding, as derived above */
+    real slack;          /* what the supports may fall short beyond that, by the caller's word */
+    int wild;            /* sizes so large or small that directions need care */
+    int calls;
+} difference;
+
+/* Within the reach, and with that finite; the reach not known, just finite. */
+static int fits(const body *k, vec x)
+{
+    real limit = k->reach > 0 ? k->reach * (1 + 16 * UNIT) : REAL_MAX;
+    int r = 1;
+    for (int i = 0; i < DIM; i++) r &= size(x.c[i]) <= limit;
+    return r;
+}
+
+/* The body's point farthest along d; 0 where the support's answer is no point of a set of that reach. */
+static int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
+{
+    if (d->wild) dir = mul(mul(dir, leveler(peak(dir))), k->posed ? k->ease : (real)1);
+    if (k->posed) dir = pull(k->m, dir);
+    real longest = peak(dir);
+    if (!(longest > 0)) dir = axis(0, 1); /* the map flattens this direction: all points are equally far */
+    else if (d->wild) dir = mul(dir, leveler(longest) * (real)0.0625); /* no sum of three products overflows */
+    d->calls++;
+    *reach = k->support(k->data, dir.c, x->c);
+    return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);
+}
+
+static vec place(const difference *d, const body *k, vec x) { return k->posed ? map(k->m, x) : mul(x, d->scale); }
+
+static vec corner_of(const difference *d, vec x, vec y) { return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c)); }
+
+/* The corner of the difference that lies least along v. */
+static int ask(difference *d, vec v, vertex *p, real reach[2])
+{
+    if (!farthest(d, &d->a, mul(v, -1), &p->x, &reach[0])) return 0;
+    if (!farthest(d, &d->b, v, &p->y, &reach[1])) return 0;
+    p->w = corner_of(d, p->x, p->y);
+    return 1;
+}
+
+/* Finds the reach of a set whose support does not say: the box around it, two calls an axis. */
+static int survey(difference *d, body *k)
+{
+    vec far = axis(0, 0), x;
+    real unsaid;
+    for (int i = 0; i < 2 * DIM; i++) {
+        real sign = i & 1 ? (real)-1 : (real)1;
+        d->calls++;
+        unsaid = k->support(k->data, axis(i / 2, sign).c, x.c);
+        if (!(unsaid == 0)) return 0;
+        for (int j = 0; j < DIM; j++) {
+            if (!bounded(x.c[j])) return 0;
+            far.c[j] = larger(size(x.c[j]), far.c[j]);
+        }
+    }
+    k->reach = spread(far) * (1 + 16 * UNIT) + REAL_MIN;
+    return k->reach <= REAL_MAX;
+}
+
+static void seize(body *k, const shape *s)
+{
+    k->support = s->support;
+    k->data = s->data;
+    k->posed = s->pose != NULL;
+    k->stretch = 1;
+    k->ease = 1;
+    k->reach = 0;
+    if (!k->posed) return;
+    for (int i = 0; i < DIM * DIM; i++) k->m[i] = s->pose->m[i];
+    k->stretch = stretch(k->m);
+    if (k->stretch > 0) k->ease = leveler(k->stretch);
+}
+
+static int unruly(real x) { return !(x > 1 / PLAIN && x < PLAIN); }
+
+/* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
+static int settle(difference *d, real slack)
+{
+    d->a.reach = larger(d->a.reach, 8 * REAL_MIN); /* a bound still, and 1 / reach is finite */
+    d->b.reach = larger(d->b.reach, 8 * REAL_MIN);
+    real a = d->a.stretch * d->a.reach, b = d->b.stretch * d->b.reach, c = spread(d->c), whole = a + b + c;
+    if (!(whole <= REAL_MAX / 4)) return 0;
+    d->scale = leveler(whole);
+    d->unscale = 1 / d->scale;
+    for (int i = 0; i < DIM * DIM; i++) {
+        if (d->a.posed) d->a.m[i] *= d->scale;
+        if (d->b.posed) d->b.m[i] *= d->scale;
+    }
+    d->c = mul(d->c, d->scale);
+    d->doubt = UNIT * d->scale * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
+    d->slack = slack * d->scale * (d->a.stretch + d->b.stretch) * (1 + 8 * UNIT);
+    d->wild = unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale);
+    if (d->wild) { /* products that underflow, in the supports (64) and in the scaled maps (reach) */
+        real grown = 64 * TINY * d->scale * larger(1, d->a.stretch + d->b.stretch);
+        d->doubt += grown + 8 * TINY * d->a.reach + 8 * TINY * d->b.reach + 4 * REAL_MIN;
+        if (d->a.posed) d->a.ease = leveler(larger(d->a.stretch * d->scale, REAL_MIN));
+        if (d->b.posed) d->b.ease = leveler(larger(d->b.stretch * d->scale, REAL_MIN));
+    }
+    return d->doubt <= REAL_MAX && d->slack <= REAL_MAX;
+}
+
+static void start(difference *d, const shape *a, const shape *b)
+{
+    seize(&d->a, a);
+    seize(&d->b, b);
+    d->c = axis(0, 0);
+    if (b->pose) d->c = load(b->pose->p);
+    if (a->pose) d->c = sub(d->c, load(a->pose->p));
+    d->scale = 1;
+    d->wild = 1; /* until known better */
+}
+
+/* Along the line of centres, from B to A; along the first axis where there is none. */
+static vec first_direction(const difference *d)
+{
+    real far = peak(d->c);
+    return far > 0 && bounded(far) ? mul(d->c, -leveler(far)) : axis(0, 1);
+}
+
+/* Cold: the first corner, least along v, which also tells the reaches and with them the scale. */
+static int meet(difference *d, vec v, real slack, vertex *p)
+{
+    real reach[2];
+    if (!ask(d, v, p, reach)) return 0;
+    if (reach[0] == 0 ? !survey(d, &d->a) : (d->a.reach = reach[0], 0)) return 0;
+    if (reach[1] == 0 ? !survey(d, &d->b) : (d->b.reach = reach[1], 0)) return 0;
+    if (!settle(d, slack)) return 0;
+    p->w = corner_of(d, p->x, p->y);
+    return fits(&d->a, p->x) && fits(&d->b, p->y);
+}
+
+#endif

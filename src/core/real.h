@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+/* The number: one IEEE 754 type, rounded after each operation, so that equal inputs give equal bits everywhere.
+ * Build with -ffp-contract=off; what can be checked of that is checked here. */
+#ifndef GJK_CORE_REAL_H
+#define GJK_CORE_REAL_H
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "words.h"
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "gjk proves its answers from the rules of IEEE arithmetic: build it without -ffast-math"
+#endif
+#if defined(_MSC_VER) && defined(_M_FP_FAST)
+#error "gjk proves its answers from the rules of IEEE arithmetic: build it without /fp:fast"
+#endif
+
+#if REAL_IS_DOUBLE
+#if DBL_MANT_DIG != 53 || DBL_MAX_EXP != 1024
+#error "double is not an IEEE 754 double here: use the float variants"
+#endif
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1
+#error "doubles are computed in a wider format: on 32-bit x86 build with -msse2 -mfpmath=sse"
+#endif
+typedef double real;
+typedef uint64_t bits;
+#define MANTISSA 52
+#define EXPONENT_MAX 2047u
+#define REAL_MAX DBL_MAX
+#define REAL_MIN DBL_MIN
+#define PLAIN ((real)0x1p300) /* sizes within 1/PLAIN .. PLAIN need no care for under- and overflow */
+#else
+#if FLT_MANT_DIG != 24 || FLT_MAX_EXP != 128
+#error "float is not an IEEE 754 float here"
+#endif
+#if FLT_EVAL_METHOD != 0
+#error "floats are computed in a wider format: -std=gnu99, or on 32-bit x86 -msse2 -mfpmath=sse, cures it"
+#endif
+typedef float real;
+typedef uint32_t bits;
+#define MANTISSA 23
+#define EXPONENT_MAX 255u
+#define REAL_MAX FLT_MAX
+#define REAL_MIN FLT_MIN
+#define PLAIN ((real)0x1p30)
+#endif
+
+#define UNIT ((real)1 / (real)((bits)2 << MANTISSA)) /* unit roundoff: a rounded result is off by this share at most */
+#define TINY (REAL_MIN * (2 * UNIT))                 /* the least number above 0 */
+
+static real root(real x)
+{
+#if REAL_IS_DOUBLE
+    return sqrt(x);
+#else
+    return sqrtf(x);
+#endif
+}
+
+static real size(real x)
+{
+#if REAL_IS_DOUBLE
+    return fabs(x);
+#else
+    return fabsf(x);
+#endif
+}
+
+/* NaN comes through as the second. */
+static real larger(real x, real y) { return x > y ? x : y; }
+static real smaller(real x, real y) { return x < y ? x : y; }
+
+static int bounded(real x) { return size(x) <= REAL_MAX; }
+
+/* A power of two that brings x, finite and not negative, into [1, 4); as near as the format allows where x is subnormal. */
+static real leveler(real x)
+{
+    bits e;
+    memcpy(&e, &x, sizeof e);
+    e = (EXPONENT_MAX - 1) - (e >> MANTISSA);
+    e = (e == 0 ? 1 : e) << MANTISSA;
+    memcpy(&x, &e, sizeof x);
+    return x;
+}
+
+#endif

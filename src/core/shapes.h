@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: MIT */
+/* The ready-made supports. Each is written against the same contract as anyone's: a farthest point out, the reach back,
+ * NaN for both where the data describe no set. */
+#ifndef GJK_CORE_SHAPES_H
+#define GJK_CORE_SHAPES_H
+
+#include "linear.h"
+
+typedef pub(points) points;
+typedef pub(box) box;
+typedef pub(segment) segment;
+typedef pub(ball) ball;
+typedef pub(couple) couple;
+
+/* The answer of data that describe no set. */
+static real refuse(real *out)
+{
+    real nan = (real)NAN;
+    for (int i = 0; i < DIM; i++) out[i] = nan;
+    return nan;
+}
+
+/* Sizes are finite and not negative. */
+static int sized(const real *sizes, int n)
+{
+    int r = 1;
+    for (int i = 0; i < n; i++) r &= sizes[i] >= 0 && sizes[i] <= REAL_MAX;
+    return r;
+}
+
+/* A bound on the length, tight for the cube and along the axes, without square roots, safe from overflow in between. */
+static real at_most(vec a)
+{
+    real box_diagonal = (real)(DIM == 2 ? 1.4142136 : 1.7320509) * peak(a);
+    return smaller(spread(a), box_diagonal) * (1 + 4 * UNIT) + REAL_MIN;
+}
+
+/* Along dir, length l; dir is brought to size 1 first, so that its square is within range. The zero vector for none. */
+static vec along(vec dir, real l)
+{
+    real far = peak(dir);
+    if (!(far > 0)) return axis(0, 0);
+    dir = mul(dir, leveler(far));
+    return mul(dir, l / length(dir));
+}
+
+static size_t step_of(const points *p) { return p->stride ? p->stride / sizeof(real) : DIM; }
+
+static int cloud(const points *p)
+{
+    return p->v && p->count > 0 && p->stride % sizeof(real) == 0 && (p->stride == 0 || p->stride >= DIM * sizeof(real)) &&
+           p->reach >= 0;
+}
+
+GJK_API real pub(points_reach)(const points *p)
+{
+    if (!p || !cloud(p)) return (real)NAN;
+    real far = 0, sum = 0;
+    size_t step = step_of(p);
+    for (size_t i = 0; i < p->count; i++) {
+        vec x = load(p->v + i * step);
+        if (!(spread(x) <= REAL_MAX)) return (real)NAN;
+        far = larger(peak(x), far);
+    }
+    if (far == 0) return REAL_MIN;
+    real level = leveler(far);
+    for (size_t i = 0; i < p->count; i++) {
+        vec x = mul(load(p->v + i * step), level);
+        sum = larger(dot(x, x), sum);
+    }
+    return root(sum) * (1 + 8 * UNIT) / level + REAL_MIN;
+}
+
+/* Farthest of the points, the first among equals. The sum of all heights is finite only if every point is. */
+GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const points *p = data;
+    if (!p || !cloud(p)) return refuse(out);
+    vec d = load(dir);
+    size_t step = step_of(p), best = 0;
+    real highest = dot(load(p->v), d), sum = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        real height = dot(load(p->v + i * step), d);
+        sum += height * 0;
+        if (height > highest) {
+            highest = height;
+            best = i;
+        }
+    }
+    if (!(sum == 0)) return refuse(out);
+    store(out, load(p->v + best * step));
+    return p->reach;
+}
+
+GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const box *b = data;
+    if (!b || !sized(b->half, DIM)) return refuse(out);
+    for (int i = 0; i < DIM; i++) out[i] = dir[i] < 0 ? -b->half[i] : b->half[i];
+    return at_most(load(b->half));
+}
+
+/* Among n corners. */
+static real farthest_of(const real (*v)[DIM], int n, const real dir[DIM], real out[DIM])
+{
+    real reach = 0, highest = 0;
+    int best = 0;
+    for (int i = 0; i < n; i++) {
+        vec x = load(v[i]);
+        real height = dot(x, load(dir));
+        if (!(spread(x) <= REAL_MAX)) return refuse(out);
+        reach = larger(at_most(x), reach);
+        if (i > 0 && !(height > highest)) continue;
+        highest = height;
+        best = i;
+    }
+    store(out, load(v[best]));
+    return reach;
+}
+
+GJK_API real pub(support_segment)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const segment *s = data;
+    return s ? farthest_of(s->v, 2, dir, out) : refuse(out);
+}
+
+GJK_API real pub(support_origin)(const void *unused, const real dir[DIM], real out[DIM])
+{
+    (void)unused;
+    (void)dir;
+    for (int i = 0; i < DIM; i++) out[i] = 0;
+    return REAL_MIN;
+}
+
+GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const ball *b = data;
+    if (!b || !sized(&b->radius, 1)) return refuse(out);
+    store(out, along(load(dir), b->radius));
+    return b->radius * (1 + 8 * UNIT) + REAL_MIN;
+}
+
+#if DIM == 3
+typedef pub(triangle) triangle;
+typedef pub(cylinder) cylinder;
+typedef pub(cone) cone;
+typedef pub(disc) disc;
+
+GJK_API real pub(support_triangle)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const triangle *t = data;
+    return t ? farthest_of(t->v, 3, dir, out) : refuse(out);
+}
+
+/* The rim point of the disc of that radius at that height. */
+static void rim(const real *dir, real radius, real height, real *out)
+{
+    vec flat = {{dir[0], dir[1], 0}};
+    flat = along(flat, radius);
+    flat.c[2] = height;
+    store(out, flat);
+}
+
+GJK_API real pub(support_disc)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const disc *d = data;
+    if (!d || !sized(&d->radius, 1)) return refuse(out);
+    rim(dir, d->radius, 0, out);
+    return d->radius * (1 + 8 * UNIT) + REAL_MIN;
+}
+
+GJK_API real pub(support_cylinder)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const cylinder *c = data;
+    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return refuse(out);
+    rim(dir, c->radius, dir[2] < 0 ? -c->half_length : c->half_length, out);
+    vec corner = {{c->radius, c->half_length, 0}};
+    return at_most(corner);
+}
+
+/* The apex is h up the axis, the rim h down and r out: the rim is farther where r |flat| > 2 h dir_z. */
+GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const cone *c = data;
+    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return refuse(out);
+    vec d = load(dir), corner = {{c->radius, c->half_length, 0}};
+    d = mul(d, leveler(peak(d)));
+    real level = leveler(larger(peak(corner), REAL_MIN)), up = 2 * (c->half_length * level) * d.c[2];
+    real flat = root(d.c[0] * d.c[0] + d.c[1] * d.c[1]);
+    if (c->radius * level * flat > up) {
+        rim(dir, c->radius, -c->half_length, out);
+    } else {
+        store(out, axis(2, c->half_length));
+    }
+    return at_most(corner);
+}
+#endif
+
+/* One of a couple, pose and radius included. Its reach counts all that passes through the rounding here, so that the
+ * licence of 8 roundings holds for the couple too. */
+static real support_of(const shape *s, vec dir, vec *out)
+{
+    real nan = (real)NAN;
+    if (!s->support || !sized(&s->radius, 1)) return nan;
+    const pose *p = s->pose;
+    vec d = p ? pull(p->m, dir) : dir;
+    real longest = peak(d);
+    d = longest > 0 ? mul(d, leveler(longest) * (real)0.0625) : axis(0, 1);
+    real reach = s->support(s->data, d.c, out->c);
+    if (p) *out = add(map(p->m, *out), load(p->p));
+    if (s->radius > 0) *out = add(*out, along(dir, s->radius));
+    if (!(reach > 0)) return reach;
+    return p ? 4 * stretch(p->m) * reach + spread(load(p->p)) + s->radius : reach + s->radius;
+}
+
+GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const couple *c = data;
+    vec a, b, d = load(dir);
+    if (!c) return refuse(out);
+    real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
+    if (!(reach_a >= 0 && reach_b >= 0)) return refuse(out);
+    store(out, add(a, b));
+    return reach_a > 0 && reach_b > 0 ? 2 * (reach_a + reach_b) : 0;
+}
+
+GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const couple *c = data;
+    vec a, b, d = load(dir);
+    if (!c) return refuse(out);
+    real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
+    if (!(reach_a >= 0 && reach_b >= 0)) return refuse(out);
+    store(out, dot(d, a) >= dot(d, b) ? a : b);
+    return reach_a > 0 && reach_b > 0 ? 2 * larger(reach_a, reach_b) : 0;
+}
+
+#endif

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT */
+/* A simplex of the difference A - B and its point nearest the origin.
+ *
+ * simplex2.h and simplex3.h give, each for its dimension:
+ *   nearest    drops the corners that do not carry the nearest point; the newest corner is known to carry it
+ *   weigh      the nearest point's weights on the corners that are left
+ *   room       a full simplex: how far the origin is inside, after rounding; not above 0 where that is not certain
+ * and both nearest points come from the face's normal, v = n (n.p) / (n.n), not from a weighted sum of corners: the
+ * sum's rounding error stops the search on the wrong face once the gap is small. */
+#ifndef GJK_CORE_SIMPLEX_H
+#define GJK_CORE_SIMPLEX_H
+
+#include "linear.h"
+
+typedef struct vertex {
+    vec w;    /* of the difference, in the search's frame and scale */
+    vec x, y; /* of A and of B, each in its own coordinates */
+} vertex;
+
+typedef struct simplex {
+    vertex slot[DIM + 1];
+    int at[DIM + 1]; /* slots of the corners, the newest last; then the free slots */
+    int n;
+} simplex;
+
+static void clear(simplex *s)
+{
+    for (int i = 0; i <= DIM; i++) s->at[i] = i;
+    s->n = 0;
+}
+
+static vertex *corner(simplex *s, int i) { return &s->slot[s->at[i]]; }
+static vec point(const simplex *s, int i) { return s->slot[s->at[i]].w; }
+
+static void append(simplex *s, const vertex *p)
+{
+    s->slot[s->at[s->n]] = *p;
+    s->n++;
+}
+
+/* Keeps the corners i of the mask, in their order. */
+static void keep(simplex *s, unsigned mask)
+{
+    int at[DIM + 1], n = 0, rest = 0;
+    for (int i = 0; i < s->n; i++)
+        if (mask >> i & 1) n++;
+    for (int i = 0, k = 0; i <= DIM; i++) {
+        if (i < s->n && (mask >> i & 1)) at[k++] = s->at[i];
+        else at[n + rest++] = s->at[i];
+    }
+    memcpy(s->at, at, sizeof at);
+    s->n = n;
+}
+
+/* Where the origin projects onto the line through p and q, if that is strictly between them. Weights of p and q. */
+static int edge(vec p, vec q, vec *v, real weight[2])
+{
+    vec e = sub(q, p);
+    real from_p = -dot(p, e), from_q = dot(q, e), l = dot(e, e);
+    if (!(from_p > 0) || !(from_q > 0) || !(l > 0)) return 0;
+    weight[0] = from_q / l;
+    weight[1] = from_p / l;
+#if DIM == 2
+    vec n = {{-e.c[1], e.c[0]}};
+    *v = mul(n, dot(n, from_p < from_q ? p : q) / l);
+#else
+    *v = from_p < from_q ? add(p, mul(e, weight[1])) : sub(q, mul(e, weight[0]));
+#endif
+    return 1;
+}
+
+/* How near the line from p along e comes to the origin for positive steps: the decrease of the squared distance. */
+static real gain(vec p, vec e)
+{
+    real t = -dot(p, e);
+    return t > 0 ? t * (t / dot(e, e)) : 0;
+}
+
+#if DIM == 2
+#include "simplex2.h"
+#else
+#include "simplex3.h"
+#endif
+
+/* The least of all parts of the simplex, tried one by one; slower, and free of assumptions. Drops the rest. */
+static vec nearest_of_all(simplex *s)
+{
+    unsigned best = 0, all = 1u << s->n;
+    real least = 0;
+    vec v = axis(0, 0);
+    for (unsigned mask = 1; mask < all; mask++) {
+        vec p;
+        if (!part(s, mask, &p)) continue;
+        real d = dot(p, p);
+        if (best != 0 && !(d < least)) continue;
+        best = mask;
+        least = d;
+        v = p;
+    }
+    keep(s, best);
+    return v;
+}
+
+/* The nearest point's weights, none negative, their sum 1 to rounding. */
+static void weigh(const simplex *s, real weight[DIM + 1])
+{
+    real sum = 0;
+    for (int i = 0; i <= DIM; i++) weight[i] = 0;
+    weigh_raw(s, weight);
+    for (int i = 0; i < s->n; i++) {
+        weight[i] = weight[i] > 0 ? weight[i] : 0;
+        sum += weight[i];
+    }
+    for (int i = 0; i < s->n; i++) weight[i] = sum > 0 ? weight[i] / sum : (real)(i == s->n - 1);
+}
+
+/* The combination of the corners' w, x or y. */
+static vec blend(const simplex *s, const real weight[DIM + 1], size_t member)
+{
+    vec r = axis(0, 0);
+    for (int i = 0; i < s->n; i++) {
+        const vec *p = (const vec *)(const void *)((const char *)&s->slot[s->at[i]] + member);
+        r = add(r, mul(*p, weight[i]));
+    }
+    return r;
+}
+
+#endif

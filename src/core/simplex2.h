@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+/* simplex.h in the plane: points, edges, triangles. */
+#ifndef GJK_CORE_SIMPLEX2_H
+#define GJK_CORE_SIMPLEX2_H
+
+static real cross(vec a, vec b) { return a.c[0] * b.c[1] - a.c[1] * b.c[0]; }
+
+/* The origin's side of each edge against the triangle's own turn. Weights of p, q, r, times twice the area. */
+static int holds(const simplex *s, real weight[3])
+{
+    vec p = point(s, 0), q = point(s, 1), r = point(s, 2);
+    weight[0] = cross(q, r);
+    weight[1] = cross(r, p);
+    weight[2] = cross(p, q);
+    if (cross(sub(q, p), sub(r, p)) < 0)
+        for (int i = 0; i < 3; i++) weight[i] = -weight[i];
+    return weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+}
+
+/* The part of the simplex that the mask picks: its point nearest the origin, if that is in its interior. */
+static int part(const simplex *s, unsigned mask, vec *v)
+{
+    int k[3], n = 0;
+    real weight[3];
+    for (int i = 0; i < s->n; i++)
+        if (mask >> i & 1) k[n++] = i;
+    *v = n == 1 ? point(s, k[0]) : axis(0, 0);
+    if (n == 2) return edge(point(s, k[0]), point(s, k[1]), v, weight);
+    return n == 3 ? holds(s, weight) : 1;
+}
+
+static vec nearest_on_edge(simplex *s, int i, int j)
+{
+    real weight[2];
+    vec v;
+    unsigned both = 1u << i | 1u << j;
+    if (edge(point(s, i), point(s, j), &v, weight)) {
+        keep(s, both);
+        return v;
+    }
+    v = point(s, j);
+    keep(s, 1u << j);
+    return v;
+}
+
+/* The newest corner p is in the answer: three weights decide for the triangle, else the better edge at p. */
+static vec nearest(simplex *s)
+{
+    real weight[3];
+    if (s->n == 1) return point(s, 0);
+    if (s->n == 2) return nearest_on_edge(s, 0, 1);
+    if (holds(s, weight)) return axis(0, 0);
+    vec p = point(s, 2);
+    return nearest_on_edge(s, gain(p, sub(point(s, 1), p)) > gain(p, sub(point(s, 0), p)), 2);
+}
+
+static void weigh_raw(const simplex *s, real weight[3])
+{
+    vec v;
+    if (s->n == 1) weight[0] = 1;
+    else if (s->n == 3) holds(s, weight);
+    else if (!edge(point(s, 0), point(s, 1), &v, weight)) {
+        weight[0] = dot(point(s, 0), point(s, 0)) < dot(point(s, 1), point(s, 1));
+        weight[1] = 1 - weight[0];
+    }
+}
+
+static real room(const simplex *s)
+{
+    real least = REAL_MAX;
+    for (int i = 0; i < 3; i++) {
+        vec p = point(s, i), e = sub(point(s, (i + 1) % 3), p), f = sub(point(s, (i + 2) % 3), p);
+        real inside = cross(p, e), third = cross(e, f), l = length(e);
+        if (third < 0) inside = -inside;
+        /* each product's operands carry a rounding of their own */
+        real doubt = 4 * UNIT * l * (length(p) + length(f));
+        if (!(size(third) > doubt)) return 0;
+        least = smaller((inside - doubt) / l * (1 - 8 * UNIT), least);
+    }
+    return least;
+}
+
+#endif

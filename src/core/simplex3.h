@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+/* simplex.h in space: points, edges, triangles, tetrahedra. */
+#ifndef GJK_CORE_SIMPLEX3_H
+#define GJK_CORE_SIMPLEX3_H
+
+static vec cross(vec a, vec b)
+{
+    vec r = {{a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2], a.c[0] * b.c[1] - a.c[1] * b.c[0]}};
+    return r;
+}
+
+/* A triangle so narrow that its normal is mostly noise: onto its longer side first, then across it. The weights are of
+ * p, of the far end of the longer side, and of the remaining corner. */
+static void across(vec p, vec along, vec aside, vec *v, real weight[3])
+{
+    real ll = dot(along, along), lean = dot(aside, along) / ll, reach = -dot(p, along) / ll;
+    vec up = sub(aside, mul(along, lean)), foot = add(p, mul(along, reach));
+    real uu = dot(up, up);
+    weight[2] = uu > 0 ? -dot(foot, up) / uu : 0;
+    weight[1] = reach - weight[2] * lean;
+    weight[0] = 1 - weight[1] - weight[2];
+    *v = add(foot, mul(up, weight[2]));
+}
+
+/* Where the origin projects onto the plane of the triangle, if that is strictly inside it. Weights of p, q, r. */
+static int face(vec p, vec q, vec r, vec *v, real weight[3])
+{
+    vec a = sub(q, p), b = sub(r, p), n = cross(a, b);
+    real nn = dot(n, n), aa = dot(a, a), bb = dot(b, b);
+    if (nn > (real)1e-5 * aa * bb) {
+        weight[1] = dot(n, cross(b, p)) / nn;
+        weight[2] = dot(n, cross(p, a)) / nn;
+        weight[0] = 1 - weight[1] - weight[2];
+        *v = mul(n, dot(n, p) / nn);
+    } else if (!(aa > 0 && bb > 0)) {
+        return 0;
+    } else if (aa > bb) {
+        across(p, a, b, v, weight);
+    } else {
+        across(p, b, a, v, weight);
+        real t = weight[1];
+        weight[1] = weight[2];
+        weight[2] = t;
+    }
+    return weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+}
+
+/* Six times the signed volumes that the origin makes with the faces, as weights of the corners opposite. */
+static int holds(const simplex *s, real weight[4])
+{
+    vec p = point(s, 3), a = sub(point(s, 0), p), b = sub(point(s, 1), p), c = sub(point(s, 2), p);
+    vec bc = cross(b, c);
+    real whole = dot(a, bc), turn = whole < 0 ? (real)-1 : (real)1;
+    weight[0] = -dot(p, bc) * turn;
+    weight[1] = -dot(p, cross(c, a)) * turn;
+    weight[2] = -dot(p, cross(a, b)) * turn;
+    weight[3] = dot(point(s, 0), cross(point(s, 1), point(s, 2))) * turn;
+    return weight[0] > 0 && weight[1] > 0 && weight[2] > 0 && weight[3] > 0;
+}
+
+/* The part of the simplex that the mask picks: its point nearest the origin, if that is in its interior. */
+static int part(const simplex *s, unsigned mask, vec *v)
+{
+    int k[4], n = 0;
+    real weight[4];
+    for (int i = 0; i < s->n; i++)
+        if (mask >> i & 1) k[n++] = i;
+    *v = n == 1 ? point(s, k[0]) : axis(0, 0);
+    if (n == 2) return edge(point(s, k[0]), point(s, k[1]), v, weight);
+    if (n == 3) return face(point(s, k[0]), point(s, k[1]), point(s, k[2]), v, weight);
+    return n == 4 ? holds(s, weight) : 1;
+}
+
+static vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
+{
+    real weight[2];
+    vec v;
+    if (edge(point(s, i), point(s, j), &v, weight)) {
+        *mask = 1u << i | 1u << j;
+        return v;
+    }
+    *mask = 1u << j;
+    return point(s, j);
+}
+
+/* Corner k is in the answer: the face, else the better of its two edges there. */
+static vec nearest_on_face(const simplex *s, int i, int j, int k, unsigned *mask)
+{
+    real weight[3];
+    vec v, p = point(s, k);
+    if (face(p, point(s, i), point(s, j), &v, weight)) {
+        *mask = 1u << i | 1u << j | 1u << k;
+        return v;
+    }
+    return nearest_on_edge(s, gain(p, sub(point(s, j), p)) > gain(p, sub(point(s, i), p)) ? j : i, k, mask);
+}
+
+/* The newest corner is in the answer: the origin is inside, or nearest to one of the three faces there that it sees. */
+static vec nearest_on_faces(const simplex *s, unsigned *mask)
+{
+    static const int opposite[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+    real weight[4], least = REAL_MAX;
+    vec v = axis(0, 0);
+    *mask = 15;
+    if (holds(s, weight)) return v;
+    for (int i = 0; i < 3; i++) {
+        unsigned kept;
+        if (weight[i] > 0) continue;
+        vec p = nearest_on_face(s, opposite[i][0], opposite[i][1], 3, &kept);
+        real d = dot(p, p);
+        if (d < least) {
+            least = d;
+            v = p;
+            *mask = kept;
+        }
+    }
+    if (*mask == 15) return nearest_on_face(s, 0, 1, 2, mask); /* only rounding sends us here */
+    return v;
+}
+
+static vec nearest(simplex *s)
+{
+    unsigned mask = 1;
+    vec v = point(s, 0);
+    if (s->n == 2) v = nearest_on_edge(s, 0, 1, &mask);
+    if (s->n == 3) v = nearest_on_face(s, 0, 1, 2, &mask);
+    if (s->n == 4) v = nearest_on_faces(s, &mask);
+    keep(s, mask);
+    return v;
+}
+
+static void weigh_raw(const simplex *s, real weight[4])
+{
+    vec v;
+    if (s->n == 1) weight[0] = 1;
+    else if (s->n == 2) edge(point(s, 0), point(s, 1), &v, weight);
+    else if (s->n == 3) face(point(s, 0), point(s, 1), point(s, 2), &v, weight);
+    else holds(s, weight);
+}
+
+static real room(const simplex *s)
+{
+    real least = REAL_MAX;
+    for (int i = 0; i < 4; i++) {
+        vec p = point(s, i), a = sub(point(s, (i + 1) % 4), p), b = sub(point(s, (i + 2) % 4), p);
+        vec n = cross(a, b), f = sub(point(s, (i + 3) % 4), p);
+        real inside = -dot(n, p), fourth = dot(n, f), l = length(n);
+        if (fourth < 0) inside = -inside;
+        /* a, b, f carry one rounding each, n three more of a's and b's lengths, the products three */
+        real doubt = 12 * UNIT * length(a) * length(b) * (length(p) + length(f));
+        if (!(size(fourth) > doubt)) return 0;
+        least = smaller((inside - doubt) / l * (1 - 8 * UNIT), least);
+    }
+    return least;
+}
+
+#endif

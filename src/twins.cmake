@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# Makes the float headers from the double ones; with -DCHECK=1 only compares, and fails where one is stale.
+#   cmake -P src/twins.cmake
+cmake_minimum_required(VERSION 3.16)
+get_filename_component(include "${CMAKE_CURRENT_LIST_DIR}/../include/gjk" ABSOLUTE)
+foreach(dim 2 3)
+  file(READ "${include}/gjk${dim}.h" text)
+  string(REPLACE "gjk${dim}" "gjk${dim}f" text "${text}")
+  string(REPLACE "GJK${dim}" "GJK${dim}F" text "${text}")
+  string(REPLACE "double" "float" text "${text}")
+  string(REPLACE "#ifndef GJK${dim}F_H\n"
+    "/* Made from gjk${dim}.h by src/twins.cmake. */\n#ifndef GJK${dim}F_H\n" text "${text}")
+  set(twin "${include}/gjk${dim}f.h")
+  if(CHECK)
+    set(old "")
+    if(EXISTS "${twin}")
+      file(READ "${twin}" old)
+    endif()
+    if(NOT old STREQUAL text)
+      message(FATAL_ERROR "${twin} is stale: run cmake -P src/twins.cmake")
+    endif()
+  else()
+    file(WRITE "${twin}" "${text}")
+  endif()
+endforeach()
