@@ -49,9 +49,9 @@ static void remember(cache *k, const search *q, const shape *a, const shape *b)
         store(k->a[i], q->s.slot[q->s.at[i]].x);
         store(k->b[i], q->s.slot[q->s.at[i]].y);
     }
-    if (n <= DIM && !q->repeated) { /* as near as the others: the next query may be answered with it */
-        store(k->a[n], q->last.x);
-        store(k->b[n], q->last.y);
+    if (q->pending && !q->repeated) { /* as near as the others: the next query may be answered with it */
+        store(k->a[n], q->s.slot[q->s.at[n]].x);
+        store(k->b[n], q->s.slot[q->s.at[n]].y);
         n++;
     }
     k->count = (uint32_t)n;
@@ -151,9 +151,10 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     real weight[DIM + 1], upper;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
-    goal g = {REAL_MAX, -1, radius, o.abs_tol, o.rel_tol, (int)o.max_steps};
+    goal g = {REAL_MAX, -1, radius, o.abs_tol, o.rel_tol, 0, (int)o.max_steps};
     if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
+    g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
     if (end == FAULT) return GJK_BAD_SUPPORT;
@@ -177,7 +178,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     real weight[DIM + 1], upper;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
-    goal g = {radius * (1 + 16 * UNIT), radius * (1 - 16 * UNIT), radius, -1, 0, (int)o.max_steps};
+    goal g = {radius * (1 + 16 * UNIT), radius * (1 - 16 * UNIT), radius, -1, 0, radius > 0, (int)o.max_steps};
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
     if (end == FAULT) return GJK_BAD_SUPPORT;

@@ -18,6 +18,7 @@ typedef struct goal {
     real within;           /* stop when proven to be less than this apart */
     real radius;           /* of both bodies together */
     real abs_tol, rel_tol; /* stop at upper - lower <= abs_tol + rel_tol * (upper - radius) */
+    int early;             /* whether anything but beyond can end it early */
     int max_steps;
 } goal;
 
@@ -38,8 +39,8 @@ typedef struct search {
     real vv;      /* v.v; REAL_MAX before there is a simplex */
     real lower;   /* of the signed separation */
     vec normal;   /* unit, from A to B: where lower was found */
-    vertex last;  /* the corner last asked for */
-    int repeated; /* it stood in the simplex already */
+    int pending;  /* s's spare slot holds a corner that was asked for and not taken in */
+    int repeated; /* because it stood in the simplex already */
     int steps;
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
@@ -52,26 +53,26 @@ static real certify(const search *q, real weight[DIM + 1])
     return length(blend(&q->s, weight, offsetof(vertex, w))) * (1 + 8 * UNIT) + q->d.doubt;
 }
 
-/* The last corner's height along v bounds the separation from below. */
-static void raise(search *q)
+/* The height of w, the corner least along v, bounds the separation from below. */
+static void raise(search *q, vec v, vec w)
 {
-    real l = length(q->v), height = dot(q->v, q->last.w) / l;
-    real lower = height - 4 * UNIT * (size(height) + dot_size(q->v, q->last.w) / l) - q->d.doubt - q->d.slack;
+    real k = 1 / length(v), height = dot(v, w) * k;
+    real lower = height - 5 * UNIT * (size(height) + dot_size(v, w) * k) - q->d.doubt - q->d.slack;
     if (!(lower > q->lower)) return;
     q->lower = lower;
-    q->normal = mul(q->v, -1 / l);
+    q->normal = mul(v, -k);
 }
 
 static int repeats(const vertex *p, const vertex *q) { return same(p->x, q->x) & same(p->y, q->y); }
 
-/* Takes the last corner into the simplex. 0, and nothing changed, where that brings v no nearer. */
+/* Takes the corner in the spare slot into the simplex. 0, and nothing changed, where that brings v no nearer. */
 static int advance(search *q)
 {
     simplex *s = &q->s;
     int at[DIM + 1], n = s->n;
     memcpy(at, s->at, sizeof at);
-    append(s, &q->last);
     q->borrowed &= ~(1u << at[n]);
+    s->n = n + 1;
     vec v = nearest(s);
     real vv = dot(v, v);
     if (!(vv < q->vv)) { /* once more without assumptions */
@@ -87,56 +88,62 @@ static int advance(search *q)
     }
     q->v = v;
     q->vv = vv;
+    q->pending = 0;
     return 1;
 }
 
-/* What the last corner shows; OPEN where the search may go on. */
+/* |v| is below half a rounding of the frame, which is of size 1 to 4: it has no direction. */
+static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
+
+/* What the corner in the spare slot shows; OPEN where the search may go on. */
 static enum end consider(search *q, const goal *g)
 {
     real weight[DIM + 1];
+    const vertex *last = spare(&q->s);
     q->steps++;
-    raise(q);
+    q->pending = 1;
+    raise(q, q->v, last->w);
     if (q->lower > g->beyond) {
         if (q->s.n == 0) advance(q);
         return BEYOND;
     }
     if (q->s.n > 0) {
-        real gap = q->vv - dot(q->v, q->last.w);
-        for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), &q->last);
-        if (q->repeated || !(gap > 2 * UNIT * dot_size(q->v, q->last.w))) return STILL;
+        real gap = q->vv - dot(q->v, last->w);
+        for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), last);
+        if (q->repeated || !(gap > 2 * UNIT * dot_size(q->v, last->w))) return STILL;
     }
     if (!advance(q)) return STILL;
     if (q->s.n == DIM + 1) return INSIDE;
-    if (!(q->vv > UNIT * UNIT / 4)) return STILL; /* the scaled frame is of size 1 to 4: v is noise */
+    if (vanished(q)) return STILL;
+    if (!g->early) return OPEN;
     real upper = root(q->vv) + q->d.doubt;
     if (upper < g->within && certify(q, weight) < g->within) return WITHIN;
-    if (upper - q->lower <= g->abs_tol + g->rel_tol * (upper - g->radius)) return CLOSE;
-    return OPEN;
+    return upper - q->lower <= g->abs_tol + g->rel_tol * (upper - g->radius) ? CLOSE : OPEN;
 }
 
-/* A corner has been asked for. One of the lender's, to the bit, and the sets are still those that it knew. */
-static int known(search *q)
+/* p was handed out just now. If it is one of the lender's, to the bit, the sets are still those that it knew. */
+static int known(search *q, const vertex *p)
 {
     const cache *k = q->lender;
     if (!k) return 0;
     for (uint32_t i = 0; i < k->count; i++) {
-        if (!same(load(k->a[i]), q->last.x) || !same(load(k->b[i]), q->last.y)) continue;
+        if (!same(load(k->a[i]), p->x) || !same(load(k->b[i]), p->y)) continue;
         q->lender = NULL;
         return 1;
     }
     return 0;
 }
 
-/* Walks on from q->last, the corner least along q->v. */
+/* Walks on from the corner in the spare slot, least along q->v. */
 static enum end descend(search *q, const goal *g)
 {
     real reach[2];
-    if (!(q->vv > UNIT * UNIT / 4)) return q->s.n > DIM ? INSIDE : STILL;
+    if (vanished(q)) return q->s.n > DIM ? INSIDE : STILL;
     for (;;) {
         enum end end = consider(q, g);
         if (end != OPEN || q->steps >= g->max_steps) return end;
-        if (!ask(&q->d, q->v, &q->last, reach)) return FAULT;
-        known(q);
+        if (!ask(&q->d, q->v, spare(&q->s), reach)) return FAULT;
+        known(q, spare(&q->s));
     }
 }
 
@@ -146,6 +153,7 @@ static void blank(search *q)
     q->vv = REAL_MAX;
     q->lower = -REAL_MAX;
     q->normal = axis(0, 1);
+    q->pending = 0;
     q->repeated = 0;
     q->lender = NULL;
     q->borrowed = 0;
@@ -168,7 +176,7 @@ static int open_cold(search *q, const shape *a, const shape *b, real slack)
     blank(q);
     start(&q->d, a, b);
     q->v = first_direction(&q->d);
-    return meet(&q->d, q->v, slack, &q->last);
+    return meet(&q->d, q->v, slack, spare(&q->s));
 }
 
 /* From the points of the last query, as corners on trust: they are points of these sets only if the sets still answer as
@@ -177,6 +185,7 @@ static int open_cold(search *q, const shape *a, const shape *b, real slack)
 static int open_warm(search *q, const shape *a, const shape *b, real slack, const cache *k)
 {
     real reach[2];
+    vertex first;
     blank(q);
     start(&q->d, a, b);
     if (k->count == 0 || k->count > DIM + 1) return 0;
@@ -187,23 +196,28 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     q->d.b.reach = k->reach_b;
     if (!settle(&q->d, slack)) return 0;
     for (uint32_t i = 0; i < k->count; i++) {
-        vertex p = {axis(0, 0), load(k->a[i]), load(k->b[i])};
-        if (!fits(&q->d.a, p.x) || !fits(&q->d.b, p.y)) return 0;
-        p.w = corner_of(&q->d, p.x, p.y);
-        append(&q->s, &p);
+        vertex *p = spare(&q->s);
+        p->x = load(k->a[i]);
+        p->y = load(k->b[i]);
+        if (!fits(&q->d.a, p->x) || !fits(&q->d.b, p->y)) return 0;
+        p->w = corner_of(&q->d, p->x, p->y);
+        q->s.n++;
     }
     q->lender = k;
     q->borrowed = (1u << k->count) - 1;
     q->v = nearest_of_all(&q->s);
     q->vv = dot(q->v, q->v);
-    if (!(q->vv > UNIT * UNIT / 4)) q->v = away(q);
-    if (!ask(&q->d, q->v, &q->last, reach)) return 0;
+    vec dir = vanished(q) ? away(q) : q->v;
+    if (!ask(&q->d, dir, &first, reach)) return 0;
     if (reach[0] != 0 && larger(reach[0], 8 * REAL_MIN) != k->reach_a) return 0;
     if (reach[1] != 0 && larger(reach[1], 8 * REAL_MIN) != k->reach_b) return 0;
-    q->repeated = known(q);
-    if (q->vv > UNIT * UNIT / 4) return 1;
+    q->repeated = known(q, &first);
+    if (!vanished(q)) {
+        *spare(&q->s) = first;
+        return 1;
+    }
     q->steps++; /* on the origin, where v has no direction: a corner handed out again is all that is wanted */
-    raise(q);
+    raise(q, dir, first.w);
     return q->repeated;
 }
 
@@ -212,13 +226,11 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
 static int settled(search *q)
 {
     real reach[2];
+    vertex p;
     unsigned left = 0;
     for (int i = 0; i < q->s.n; i++) left |= q->borrowed & 1u << q->s.at[i];
     if (!q->lender || !left) return 1;
-    vertex last = q->last;
-    int good = ask(&q->d, away(q), &q->last, reach) && known(q);
-    q->last = last;
-    return good;
+    return ask(&q->d, away(q), &p, reach) && known(q, &p);
 }
 
 #endif

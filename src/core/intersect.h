@@ -24,7 +24,7 @@ static void move(search *q, vec t)
 {
     q->d.c = add(q->d.c, t);
     for (int i = 0; i < q->s.n; i++) {
-        vertex *p = corner(&q->s, i);
+        vertex *p = &q->s.slot[q->s.at[i]];
         p->w = corner_of(&q->d, p->x, p->y);
     }
     q->v = nearest_of_all(&q->s);
@@ -39,13 +39,15 @@ static enum end probe(search *q, int max_steps, real *lower, real *upper)
 {
     search p = *q;
     real ball = 4 * q->d.doubt, weight[DIM + 1], reach[2];
-    goal g = {0, (real)0.75 * ball, 0, -1, 0, max_steps};
+    goal g = {0, (real)0.75 * ball, 0, -1, 0, 1, max_steps};
     enum end end = WITHIN;
     for (int k = 0; k <= DIM && end == WITHIN; k++) {
         p.d.c = q->d.c;
         move(&p, mul(outpost(k), ball));
         if (certify(&p, weight) < g.within) continue;
-        end = p.steps >= max_steps ? OPEN : !ask(&p.d, p.v, &p.last, reach) ? FAULT : descend(&p, &g);
+        if (p.s.n > DIM) end = INSIDE;
+        else if (p.steps >= max_steps) end = OPEN;
+        else end = ask(&p.d, p.v, spare(&p.s), reach) ? descend(&p, &g) : FAULT;
         if (end == INSIDE || end == STILL) end = certify(&p, weight) < g.within ? WITHIN : STILL;
     }
     q->steps = p.steps;

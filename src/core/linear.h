@@ -9,44 +9,44 @@ typedef struct vec {
     real c[DIM];
 } vec;
 
-static vec load(const real *c)
+static inline vec load(const real *c)
 {
     vec r;
     for (int i = 0; i < DIM; i++) r.c[i] = c[i];
     return r;
 }
 
-static void store(real *c, vec a)
+static inline void store(real *c, vec a)
 {
     for (int i = 0; i < DIM; i++) c[i] = a.c[i];
 }
 
-static vec axis(int k, real x)
+static inline vec axis(int k, real x)
 {
     vec r;
     for (int i = 0; i < DIM; i++) r.c[i] = i == k ? x : 0;
     return r;
 }
 
-static vec add(vec a, vec b)
+static inline vec add(vec a, vec b)
 {
     for (int i = 0; i < DIM; i++) a.c[i] += b.c[i];
     return a;
 }
 
-static vec sub(vec a, vec b)
+static inline vec sub(vec a, vec b)
 {
     for (int i = 0; i < DIM; i++) a.c[i] -= b.c[i];
     return a;
 }
 
-static vec mul(vec a, real k)
+static inline vec mul(vec a, real k)
 {
     for (int i = 0; i < DIM; i++) a.c[i] *= k;
     return a;
 }
 
-static real dot(vec a, vec b)
+static inline real dot(vec a, vec b)
 {
     real r = a.c[0] * b.c[0];
     for (int i = 1; i < DIM; i++) r += a.c[i] * b.c[i];
@@ -54,17 +54,17 @@ static real dot(vec a, vec b)
 }
 
 /* What dot sums, without the signs: its rounding error is at most DIM * UNIT of this. */
-static real dot_size(vec a, vec b)
+static inline real dot_size(vec a, vec b)
 {
     real r = size(a.c[0] * b.c[0]);
     for (int i = 1; i < DIM; i++) r += size(a.c[i] * b.c[i]);
     return r;
 }
 
-static real length(vec a) { return root(dot(a, a)); }
+static inline real length(vec a) { return root(dot(a, a)); }
 
 /* Sum of sizes, at least the length, and safe from under- and overflow where the length is not. */
-static real spread(vec a)
+static inline real spread(vec a)
 {
     real r = size(a.c[0]);
     for (int i = 1; i < DIM; i++) r += size(a.c[i]);
@@ -72,14 +72,14 @@ static real spread(vec a)
 }
 
 /* Largest size; a NaN is passed over. */
-static real peak(vec a)
+static inline real peak(vec a)
 {
     real r = size(a.c[0]);
     for (int i = 1; i < DIM; i++) r = larger(size(a.c[i]), r);
     return r;
 }
 
-static int same(vec a, vec b)
+static inline int same(vec a, vec b)
 {
     int r = 1;
     for (int i = 0; i < DIM; i++) r &= a.c[i] == b.c[i];
@@ -87,7 +87,7 @@ static int same(vec a, vec b)
 }
 
 /* m x, m by rows. */
-static vec map(const real *m, vec x)
+static inline vec map(const real *m, vec x)
 {
     vec r;
     for (int i = 0; i < DIM; i++) r.c[i] = dot(load(m + DIM * i), x);
@@ -95,7 +95,7 @@ static vec map(const real *m, vec x)
 }
 
 /* The transpose of m, times d: a direction seen from the set's own frame. */
-static vec pull(const real *m, vec d)
+static inline vec pull(const real *m, vec d)
 {
     vec r = mul(load(m), d.c[0]);
     for (int i = 1; i < DIM; i++) r = add(r, mul(load(m + DIM * i), d.c[i]));
@@ -104,7 +104,7 @@ static vec pull(const real *m, vec d)
 
 /* No vector grows by more than this under m, nor under m with its signs removed: the larger of the largest row and
  * column sum of sizes. It is at least every norm used in the rounding terms. */
-static real stretch(const real *m)
+static inline real stretch(const real *m)
 {
     real r = 0;
     for (int i = 0; i < DIM; i++) {

@@ -40,7 +40,7 @@ typedef struct difference {
 } difference;
 
 /* Within the reach, and with that finite; the reach not known, just finite. */
-static int fits(const body *k, vec x)
+static inline int fits(const body *k, vec x)
 {
     real limit = k->reach > 0 ? k->reach * (1 + 16 * UNIT) : REAL_MAX;
     int r = 1;
@@ -61,9 +61,9 @@ static int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
     return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);
 }
 
-static vec place(const difference *d, const body *k, vec x) { return k->posed ? map(k->m, x) : mul(x, d->scale); }
+static inline vec place(const difference *d, const body *k, vec x) { return k->posed ? map(k->m, x) : mul(x, d->scale); }
 
-static vec corner_of(const difference *d, vec x, vec y) { return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c)); }
+static inline vec corner_of(const difference *d, vec x, vec y) { return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c)); }
 
 /* The corner of the difference that lies least along v. */
 static int ask(difference *d, vec v, vertex *p, real reach[2])

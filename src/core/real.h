@@ -51,7 +51,7 @@ typedef uint32_t bits;
 #define UNIT ((real)1 / (real)((bits)2 << MANTISSA)) /* unit roundoff: a rounded result is off by this share at most */
 #define TINY (REAL_MIN * (2 * UNIT))                 /* the least number above 0 */
 
-static real root(real x)
+static inline real root(real x)
 {
 #if REAL_IS_DOUBLE
     return sqrt(x);
@@ -60,7 +60,7 @@ static real root(real x)
 #endif
 }
 
-static real size(real x)
+static inline real size(real x)
 {
 #if REAL_IS_DOUBLE
     return fabs(x);
@@ -70,13 +70,24 @@ static real size(real x)
 }
 
 /* NaN comes through as the second. */
-static real larger(real x, real y) { return x > y ? x : y; }
-static real smaller(real x, real y) { return x < y ? x : y; }
+static inline real larger(real x, real y) { return x > y ? x : y; }
+static inline real smaller(real x, real y) { return x < y ? x : y; }
 
-static int bounded(real x) { return size(x) <= REAL_MAX; }
+/* x, not negative, with the sign of y; no branch, since signs of directions follow no pattern. */
+static inline real signed_as(real x, real y)
+{
+    bits b, s;
+    memcpy(&b, &x, sizeof b);
+    memcpy(&s, &y, sizeof s);
+    b |= s & (bits)1 << (8 * sizeof s - 1);
+    memcpy(&x, &b, sizeof x);
+    return x;
+}
+
+static inline int bounded(real x) { return size(x) <= REAL_MAX; }
 
 /* A power of two that brings x, finite and not negative, into [1, 4); as near as the format allows where x is subnormal. */
-static real leveler(real x)
+static inline real leveler(real x)
 {
     bits e;
     memcpy(&e, &x, sizeof e);

@@ -96,7 +96,7 @@ GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DI
 {
     const box *b = data;
     if (!b || !sized(b->half, DIM)) return refuse(out);
-    for (int i = 0; i < DIM; i++) out[i] = dir[i] < 0 ? -b->half[i] : b->half[i];
+    for (int i = 0; i < DIM; i++) out[i] = signed_as(b->half[i], dir[i]);
     return at_most(load(b->half));
 }
 
@@ -173,7 +173,7 @@ GJK_API real pub(support_cylinder)(const void *data, const real dir[DIM], real o
 {
     const cylinder *c = data;
     if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return refuse(out);
-    rim(dir, c->radius, dir[2] < 0 ? -c->half_length : c->half_length, out);
+    rim(dir, c->radius, signed_as(c->half_length, dir[2]), out);
     vec corner = {{c->radius, c->half_length, 0}};
     return at_most(corner);
 }

@@ -2,9 +2,10 @@
 /* A simplex of the difference A - B and its point nearest the origin.
  *
  * simplex2.h and simplex3.h give, each for its dimension:
- *   nearest    drops the corners that do not carry the nearest point; the newest corner is known to carry it
- *   weigh      the nearest point's weights on the corners that are left
- *   room       a full simplex: how far the origin is inside, after rounding; not above 0 where that is not certain
+ *   nearest     drops the corners that do not carry the nearest point; the newest corner is known to carry it
+ *   part        the nearest point of one part of the simplex, if it is in that part's interior
+ *   proportion  the nearest point's weights on the corners that are left
+ *   room        a full simplex: how far the origin is inside, after rounding; not above 0 where that is not certain
  * and both nearest points come from the face's normal, v = n (n.p) / (n.n), not from a weighted sum of corners: the
  * sum's rounding error stops the search on the wrong face once the gap is small. */
 #ifndef GJK_CORE_SIMPLEX_H
@@ -23,54 +24,50 @@ typedef struct simplex {
     int n;
 } simplex;
 
-static void clear(simplex *s)
+static inline void clear(simplex *s)
 {
     for (int i = 0; i <= DIM; i++) s->at[i] = i;
     s->n = 0;
 }
 
-static vertex *corner(simplex *s, int i) { return &s->slot[s->at[i]]; }
-static vec point(const simplex *s, int i) { return s->slot[s->at[i]].w; }
+static inline const vertex *corner(const simplex *s, int i) { return &s->slot[s->at[i]]; }
+static inline vec point(const simplex *s, int i) { return s->slot[s->at[i]].w; }
 
-static void append(simplex *s, const vertex *p)
-{
-    s->slot[s->at[s->n]] = *p;
-    s->n++;
-}
+/* Where the next corner goes, to be one of the simplex once n is raised. */
+static inline vertex *spare(simplex *s) { return &s->slot[s->at[s->n]]; }
 
-/* Keeps the corners i of the mask, in their order. */
-static void keep(simplex *s, unsigned mask)
+/* Keeps the corners i of the mask, in their order; the slots of the others are free. */
+static inline void keep(simplex *s, unsigned mask)
 {
-    int at[DIM + 1], n = 0, rest = 0;
-    for (int i = 0; i < s->n; i++)
-        if (mask >> i & 1) n++;
-    for (int i = 0, k = 0; i <= DIM; i++) {
-        if (i < s->n && (mask >> i & 1)) at[k++] = s->at[i];
-        else at[n + rest++] = s->at[i];
+    int dropped[DIM + 1], k = 0, n = 0;
+    for (int i = 0; i < s->n; i++) {
+        if (mask >> i & 1) s->at[k++] = s->at[i];
+        else dropped[n++] = s->at[i];
     }
-    memcpy(s->at, at, sizeof at);
-    s->n = n;
+    s->n = k;
+    for (int i = 0; i < n; i++) s->at[k + i] = dropped[i];
 }
 
-/* Where the origin projects onto the line through p and q, if that is strictly between them. Weights of p and q. */
-static int edge(vec p, vec q, vec *v, real weight[2])
+/* Where the origin projects onto the line through p and q, if that is strictly between them. The weights, here and in
+ * what follows, are in proportion; their sum is not 1. */
+static inline int edge(vec p, vec q, vec *v, real weight[2])
 {
     vec e = sub(q, p);
     real from_p = -dot(p, e), from_q = dot(q, e), l = dot(e, e);
+    weight[0] = from_q;
+    weight[1] = from_p;
     if (!(from_p > 0) || !(from_q > 0) || !(l > 0)) return 0;
-    weight[0] = from_q / l;
-    weight[1] = from_p / l;
 #if DIM == 2
     vec n = {{-e.c[1], e.c[0]}};
     *v = mul(n, dot(n, from_p < from_q ? p : q) / l);
 #else
-    *v = from_p < from_q ? add(p, mul(e, weight[1])) : sub(q, mul(e, weight[0]));
+    *v = from_p < from_q ? add(p, mul(e, from_p / l)) : sub(q, mul(e, from_q / l));
 #endif
     return 1;
 }
 
 /* How near the line from p along e comes to the origin for positive steps: the decrease of the squared distance. */
-static real gain(vec p, vec e)
+static inline real gain(vec p, vec e)
 {
     real t = -dot(p, e);
     return t > 0 ? t * (t / dot(e, e)) : 0;
@@ -106,7 +103,7 @@ static void weigh(const simplex *s, real weight[DIM + 1])
 {
     real sum = 0;
     for (int i = 0; i <= DIM; i++) weight[i] = 0;
-    weigh_raw(s, weight);
+    proportion(s, weight);
     for (int i = 0; i < s->n; i++) {
         weight[i] = weight[i] > 0 ? weight[i] : 0;
         sum += weight[i];

@@ -3,7 +3,7 @@
 #ifndef GJK_CORE_SIMPLEX2_H
 #define GJK_CORE_SIMPLEX2_H
 
-static real cross(vec a, vec b) { return a.c[0] * b.c[1] - a.c[1] * b.c[0]; }
+static inline real cross(vec a, vec b) { return a.c[0] * b.c[1] - a.c[1] * b.c[0]; }
 
 /* The origin's side of each edge against the triangle's own turn. Weights of p, q, r, times twice the area. */
 static int holds(const simplex *s, real weight[3])
@@ -54,15 +54,12 @@ static vec nearest(simplex *s)
     return nearest_on_edge(s, gain(p, sub(point(s, 1), p)) > gain(p, sub(point(s, 0), p)), 2);
 }
 
-static void weigh_raw(const simplex *s, real weight[3])
+static void proportion(const simplex *s, real weight[3])
 {
     vec v;
-    if (s->n == 1) weight[0] = 1;
-    else if (s->n == 3) holds(s, weight);
-    else if (!edge(point(s, 0), point(s, 1), &v, weight)) {
-        weight[0] = dot(point(s, 0), point(s, 0)) < dot(point(s, 1), point(s, 1));
-        weight[1] = 1 - weight[0];
-    }
+    weight[0] = 1;
+    if (s->n == 2) edge(point(s, 0), point(s, 1), &v, weight);
+    if (s->n == 3) holds(s, weight);
 }
 
 static real room(const simplex *s)

@@ -3,7 +3,7 @@
 #ifndef GJK_CORE_SIMPLEX3_H
 #define GJK_CORE_SIMPLEX3_H
 
-static vec cross(vec a, vec b)
+static inline vec cross(vec a, vec b)
 {
     vec r = {{a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2], a.c[0] * b.c[1] - a.c[1] * b.c[0]}};
     return r;
@@ -28,9 +28,9 @@ static int face(vec p, vec q, vec r, vec *v, real weight[3])
     vec a = sub(q, p), b = sub(r, p), n = cross(a, b);
     real nn = dot(n, n), aa = dot(a, a), bb = dot(b, b);
     if (nn > (real)1e-5 * aa * bb) {
-        weight[1] = dot(n, cross(b, p)) / nn;
-        weight[2] = dot(n, cross(p, a)) / nn;
-        weight[0] = 1 - weight[1] - weight[2];
+        weight[1] = dot(n, cross(b, p));
+        weight[2] = dot(n, cross(p, a));
+        weight[0] = nn - weight[1] - weight[2];
         *v = mul(n, dot(n, p) / nn);
     } else if (!(aa > 0 && bb > 0)) {
         return 0;
@@ -129,13 +129,13 @@ static vec nearest(simplex *s)
     return v;
 }
 
-static void weigh_raw(const simplex *s, real weight[4])
+static void proportion(const simplex *s, real weight[4])
 {
     vec v;
-    if (s->n == 1) weight[0] = 1;
-    else if (s->n == 2) edge(point(s, 0), point(s, 1), &v, weight);
-    else if (s->n == 3) face(point(s, 0), point(s, 1), point(s, 2), &v, weight);
-    else holds(s, weight);
+    weight[0] = 1;
+    if (s->n == 2) edge(point(s, 0), point(s, 1), &v, weight);
+    if (s->n == 3) face(point(s, 0), point(s, 1), point(s, 2), &v, weight);
+    if (s->n == 4) holds(s, weight);
 }
 
 static real room(const simplex *s)
