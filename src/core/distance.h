@@ -54,7 +54,7 @@ static real certify(const search *q, real weight[DIM + 1])
 }
 
 /* The height of w, the corner least along v, bounds the separation from below. */
-static void raise(search *q, vec v, vec w)
+static inline void raise(search *q, vec v, vec w)
 {
     real k = 1 / length(v), height = dot(v, w) * k;
     real lower = height - 5 * UNIT * (size(height) + dot_size(v, w) * k) - q->d.doubt - q->d.slack;
@@ -66,7 +66,7 @@ static void raise(search *q, vec v, vec w)
 static int repeats(const vertex *p, const vertex *q) { return same(p->x, q->x) & same(p->y, q->y); }
 
 /* Takes the corner in the spare slot into the simplex. 0, and nothing changed, where that brings v no nearer. */
-static int advance(search *q)
+static inline int advance(search *q)
 {
     simplex *s = &q->s;
     int at[DIM + 1], n = s->n;
@@ -96,7 +96,7 @@ static int advance(search *q)
 static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
 
 /* What the corner in the spare slot shows; OPEN where the search may go on. */
-static enum end consider(search *q, const goal *g)
+static inline enum end consider(search *q, const goal *g)
 {
     real weight[DIM + 1];
     const vertex *last = spare(&q->s);

@@ -9,47 +9,65 @@ typedef struct vec {
     real c[DIM];
 } vec;
 
+/* A statement for each component i, and for each but the first. Written out by the preprocessor, not looped: compilers
+ * keep a vector in registers only if no loop stands over its components by the time they take structs apart. */
+#define PART(k, statement)                                                                                             \
+    do {                                                                                                               \
+        enum { i = k };                                                                                                \
+        statement;                                                                                                     \
+    } while (0)
+#if DIM == 2
+#define REST(statement) PART(1, statement)
+#else
+#define REST(statement)                                                                                                \
+    PART(1, statement);                                                                                                \
+    PART(2, statement)
+#endif
+#define EACH(statement)                                                                                                \
+    PART(0, statement);                                                                                                \
+    REST(statement)
+
 static inline vec load(const real *c)
 {
     vec r;
-    for (int i = 0; i < DIM; i++) r.c[i] = c[i];
+    EACH(r.c[i] = c[i]);
     return r;
 }
 
 static inline void store(real *c, vec a)
 {
-    for (int i = 0; i < DIM; i++) c[i] = a.c[i];
+    EACH(c[i] = a.c[i]);
 }
 
 static inline vec axis(int k, real x)
 {
     vec r;
-    for (int i = 0; i < DIM; i++) r.c[i] = i == k ? x : 0;
+    EACH(r.c[i] = i == k ? x : 0);
     return r;
 }
 
 static inline vec add(vec a, vec b)
 {
-    for (int i = 0; i < DIM; i++) a.c[i] += b.c[i];
+    EACH(a.c[i] += b.c[i]);
     return a;
 }
 
 static inline vec sub(vec a, vec b)
 {
-    for (int i = 0; i < DIM; i++) a.c[i] -= b.c[i];
+    EACH(a.c[i] -= b.c[i]);
     return a;
 }
 
 static inline vec mul(vec a, real k)
 {
-    for (int i = 0; i < DIM; i++) a.c[i] *= k;
+    EACH(a.c[i] *= k);
     return a;
 }
 
 static inline real dot(vec a, vec b)
 {
     real r = a.c[0] * b.c[0];
-    for (int i = 1; i < DIM; i++) r += a.c[i] * b.c[i];
+    REST(r += a.c[i] * b.c[i]);
     return r;
 }
 
@@ -57,7 +75,7 @@ static inline real dot(vec a, vec b)
 static inline real dot_size(vec a, vec b)
 {
     real r = size(a.c[0] * b.c[0]);
-    for (int i = 1; i < DIM; i++) r += size(a.c[i] * b.c[i]);
+    REST(r += size(a.c[i] * b.c[i]));
     return r;
 }
 
@@ -67,7 +85,7 @@ static inline real length(vec a) { return root(dot(a, a)); }
 static inline real spread(vec a)
 {
     real r = size(a.c[0]);
-    for (int i = 1; i < DIM; i++) r += size(a.c[i]);
+    REST(r += size(a.c[i]));
     return r;
 }
 
@@ -75,14 +93,14 @@ static inline real spread(vec a)
 static inline real peak(vec a)
 {
     real r = size(a.c[0]);
-    for (int i = 1; i < DIM; i++) r = larger(size(a.c[i]), r);
+    REST(r = larger(size(a.c[i]), r));
     return r;
 }
 
 static inline int same(vec a, vec b)
 {
     int r = 1;
-    for (int i = 0; i < DIM; i++) r &= a.c[i] == b.c[i];
+    EACH(r &= a.c[i] == b.c[i]);
     return r;
 }
 
@@ -90,7 +108,7 @@ static inline int same(vec a, vec b)
 static inline vec map(const real *m, vec x)
 {
     vec r;
-    for (int i = 0; i < DIM; i++) r.c[i] = dot(load(m + DIM * i), x);
+    EACH(r.c[i] = dot(load(m + DIM * i), x));
     return r;
 }
 
@@ -98,7 +116,7 @@ static inline vec map(const real *m, vec x)
 static inline vec pull(const real *m, vec d)
 {
     vec r = mul(load(m), d.c[0]);
-    for (int i = 1; i < DIM; i++) r = add(r, mul(load(m + DIM * i), d.c[i]));
+    REST(r = add(r, mul(load(m + DIM * i), d.c[i])));
     return r;
 }
 

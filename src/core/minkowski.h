@@ -44,12 +44,12 @@ static inline int fits(const body *k, vec x)
 {
     real limit = k->reach > 0 ? k->reach * (1 + 16 * UNIT) : REAL_MAX;
     int r = 1;
-    for (int i = 0; i < DIM; i++) r &= size(x.c[i]) <= limit;
+    EACH(r &= size(x.c[i]) <= limit);
     return r;
 }
 
 /* The body's point farthest along d; 0 where the support's answer is no point of a set of that reach. */
-static int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
+static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
 {
     if (d->wild) dir = mul(mul(dir, leveler(peak(dir))), k->posed ? k->ease : (real)1);
     if (k->posed) dir = pull(k->m, dir);
@@ -66,7 +66,7 @@ static inline vec place(const difference *d, const body *k, vec x) { return k->p
 static inline vec corner_of(const difference *d, vec x, vec y) { return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c)); }
 
 /* The corner of the difference that lies least along v. */
-static int ask(difference *d, vec v, vertex *p, real reach[2])
+static inline int ask(difference *d, vec v, vertex *p, real reach[2])
 {
     if (!farthest(d, &d->a, mul(v, -1), &p->x, &reach[0])) return 0;
     if (!farthest(d, &d->b, v, &p->y, &reach[1])) return 0;

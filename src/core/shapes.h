@@ -16,7 +16,7 @@ typedef pub(couple) couple;
 static real refuse(real *out)
 {
     real nan = (real)NAN;
-    for (int i = 0; i < DIM; i++) out[i] = nan;
+    EACH(out[i] = nan);
     return nan;
 }
 
@@ -96,7 +96,7 @@ GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DI
 {
     const box *b = data;
     if (!b || !sized(b->half, DIM)) return refuse(out);
-    for (int i = 0; i < DIM; i++) out[i] = signed_as(b->half[i], dir[i]);
+    EACH(out[i] = signed_as(b->half[i], dir[i]));
     return at_most(load(b->half));
 }
 
@@ -128,7 +128,7 @@ GJK_API real pub(support_origin)(const void *unused, const real dir[DIM], real o
 {
     (void)unused;
     (void)dir;
-    for (int i = 0; i < DIM; i++) out[i] = 0;
+    EACH(out[i] = 0);
     return REAL_MIN;
 }
 

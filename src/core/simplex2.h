@@ -29,7 +29,7 @@ static int part(const simplex *s, unsigned mask, vec *v)
     return n == 3 ? holds(s, weight) : 1;
 }
 
-static vec nearest_on_edge(simplex *s, int i, int j)
+static inline vec nearest_on_edge(simplex *s, int i, int j)
 {
     real weight[2];
     vec v;

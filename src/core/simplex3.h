@@ -23,7 +23,7 @@ static void across(vec p, vec along, vec aside, vec *v, real weight[3])
 }
 
 /* Where the origin projects onto the plane of the triangle, if that is strictly inside it. Weights of p, q, r. */
-static int face(vec p, vec q, vec r, vec *v, real weight[3])
+static inline int face(vec p, vec q, vec r, vec *v, real weight[3])
 {
     vec a = sub(q, p), b = sub(r, p), n = cross(a, b);
     real nn = dot(n, n), aa = dot(a, a), bb = dot(b, b);
@@ -71,7 +71,7 @@ static int part(const simplex *s, unsigned mask, vec *v)
     return n == 4 ? holds(s, weight) : 1;
 }
 
-static vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
+static inline vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
 {
     real weight[2];
     vec v;
@@ -84,7 +84,7 @@ static vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
 }
 
 /* Corner k is in the answer: the face, else the better of its two edges there. */
-static vec nearest_on_face(const simplex *s, int i, int j, int k, unsigned *mask)
+static inline vec nearest_on_face(const simplex *s, int i, int j, int k, unsigned *mask)
 {
     real weight[3];
     vec v, p = point(s, k);
