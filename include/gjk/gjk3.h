@@ -77,8 +77,8 @@ typedef struct gjk3_result {
     double point_b[3];   /*   meeting, one and the same point of both */
     double normal[3];    /* unit, from a to b, always: the direction that realises lower */
     int32_t status;
-    int32_t steps;    /* taken */
-    int32_t supports; /* support calls, both shapes together */
+    int32_t steps;    /* of the search that answered */
+    int32_t supports; /* support calls, of both shapes, and of a warm start given up */
     int32_t reserved;
 } gjk3_result;
 

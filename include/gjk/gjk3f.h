@@ -78,8 +78,8 @@ typedef struct gjk3f_result {
     float point_b[3];   /*   meeting, one and the same point of both */
     float normal[3];    /* unit, from a to b, always: the direction that realises lower */
     int32_t status;
-    int32_t steps;    /* taken */
-    int32_t supports; /* support calls, both shapes together */
+    int32_t steps;    /* of the search that answered */
+    int32_t supports; /* support calls, of both shapes, and of a warm start given up */
     int32_t reserved;
 } gjk3f_result;
 

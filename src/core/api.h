@@ -81,14 +81,13 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
 {
     int warm = o->cache != NULL;
     enum end end;
-    q->steps = 0;
     q->d.calls = 0;
     for (;;) {
         end = FAULT;
         if (warm) warm = open_warm(q, a, b, o->slack, o->cache);
         if (warm || open_cold(q, a, b, o->slack)) {
             goal here = scaled(g, q->d.scale);
-            end = descend(q, &here);
+            end = search_on(q, &here);
         }
         if (end != FAULT) {
             *upper = certify(q, weight);
@@ -100,6 +99,16 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
     }
     if (o->cache) remember(o->cache, q, a, b);
     return end;
+}
+
+/* Where the bracket of the cores straddles contact, and steps are left, finds out on which side they are, if rounding
+ * allows. 0: a support's answer was none. */
+static int tell(search *q, const goal *g, real *upper, enum end *end)
+{
+    if (*end == OPEN || q->lower > 0 || *upper < 0 || *upper < g->within * q->d.scale) return 1;
+    enum end told = probe(q, g->max_steps, upper);
+    if (told == OPEN) *end = OPEN;
+    return told != FAULT;
 }
 
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
@@ -157,12 +166,12 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT) return GJK_BAD_SUPPORT;
+    if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;
     bracket(&r, &q.d, q.lower, upper, radius);
     int meeting = r.upper <= 0;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
-    r.value = smaller(larger(root(q.vv) * q.d.unscale - radius, r.lower), r.upper);
+    r.value = smaller(larger(refine(&q, weight) * q.d.unscale - radius, r.lower), r.upper);
     describe(&r, &q, weight, a, b, meeting);
     real rounding = (4 * q.d.doubt + 2 * q.d.slack) * q.d.unscale + 16 * UNIT * radius;
     r.status = distance_status(&r, &o, end, rounding);
@@ -181,16 +190,8 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     goal g = {radius * (1 + 16 * UNIT), radius * (1 - 16 * UNIT), radius, -1, 0, radius > 0, (int)o.max_steps};
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT) return GJK_BAD_SUPPORT;
+    if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;
     bracket(&r, &q.d, q.lower, upper, radius);
-    if (!(r.lower > 0 || r.upper < 0) && q.lower <= 0 && end != OPEN) {
-        real lower, overlap;
-        end = probe(&q, g.max_steps, &lower, &overlap);
-        if (end == FAULT) return GJK_BAD_SUPPORT;
-        if (end == BEYOND) q.lower = larger(q.lower, lower);
-        if (end == WITHIN) upper = smaller(upper, overlap);
-        bracket(&r, &q.d, q.lower, upper, radius);
-    }
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     describe(&r, &q, weight, a, b, r.upper < 0);
     r.status = r.value != 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;

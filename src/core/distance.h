@@ -12,6 +12,9 @@
 
 #include "minkowski.h"
 
+#define SIDESTEPS 16
+#define SHARPENINGS 8
+
 /* What would settle the question, in lengths of the scaled frame. */
 typedef struct goal {
     real beyond;           /* stop when proven to be more than this apart */
@@ -41,16 +44,97 @@ typedef struct search {
     vec normal;   /* unit, from A to B: where lower was found */
     int pending;  /* s's spare slot holds a corner that was asked for and not taken in */
     int repeated; /* because it stood in the simplex already */
+    int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
 } search;
 
+/* The weights leave their corner off v by a slip across it. Weighing the slip itself, with the same error, tells what to
+ * take back. */
+static void correct(const search *q, vec slip, real weight[DIM + 1])
+{
+    simplex s = q->s;
+    real before[DIM + 1], after[DIM + 1];
+    weigh(&s, before);
+    for (int i = 0; i < s.n; i++) s.slot[s.at[i]].w = sub(point(&s, i), slip);
+    weigh(&s, after);
+    for (int i = 0; i < s.n; i++) weight[i] += before[i] - after[i];
+    normalize(weight, s.n);
+}
+
 /* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. */
 static real certify(const search *q, real weight[DIM + 1])
 {
     weigh(&q->s, weight);
-    return length(blend(&q->s, weight, offsetof(vertex, w))) * (1 + 8 * UNIT) + q->d.doubt;
+    vec x = blend(&q->s, weight, offsetof(vertex, w));
+    for (int i = 0; i < 2 && length(sub(x, q->v)) > 4 * UNIT; i++) {
+        real better[DIM + 1];
+        memcpy(better, weight, sizeof better);
+        correct(q, sub(x, q->v), better);
+        vec y = blend(&q->s, better, offsetof(vertex, w));
+        if (!(dot(y, y) < dot(x, x))) break;
+        memcpy(weight, better, sizeof better);
+        x = y;
+    }
+    return length(x) * (1 + 8 * UNIT) + q->d.doubt;
+}
+
+/* A blend of the corners' w, x or y, to more digits than one number holds: the first corner, and the way from there. */
+static vec fine_blend(const simplex *s, const real weight[DIM + 1], size_t member, vec *low)
+{
+    vec first = member_of(corner(s, 0), member), way = axis(0, 0), r;
+    for (int i = 1; i < s->n; i++) way = add(way, mul(sub(member_of(corner(s, i), member), first), weight[i]));
+    for (int i = 0; i < DIM; i++) {
+        twin t = sum_of(first.c[i], way.c[i]);
+        r.c[i] = t.high;
+        low->c[i] = t.low;
+    }
+    return r;
+}
+
+/* The corner of A - B that the weights single out, without the roundings of the simplex's own: high is their blend. */
+static vec single_out(const search *q, const real weight[DIM + 1], vec *low)
+{
+    vec x_low, y_low, x = fine_blend(&q->s, weight, offsetof(vertex, x), &x_low);
+    vec y = fine_blend(&q->s, weight, offsetof(vertex, y), &y_low);
+    vec high = blend(&q->s, weight, offsetof(vertex, w));
+    *low = remainder_of(&q->d, x, x_low, y, y_low, high);
+    return high;
+}
+
+/* v to all its digits. Its error is that of the corners, a rounding of their size; near contact v is smaller still, and its
+ * direction noise. Worked out from the corner that the weights single out, and once more made square to the simplex, it is
+ * as good as the edges are. 0 where it vanishes. */
+static int sharpen(search *q)
+{
+    real weight[DIM + 1];
+    vec low;
+    certify(q, weight);
+    vec high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low));
+    real vv = dot(v, v);
+    if (!(vv > UNIT * UNIT * UNIT * UNIT)) return 0;
+    q->v = v;
+    q->vv = vv;
+    return 1;
+}
+
+/* |v| as near as one number can say it, measured along v: what the weights are off moves the corner that they single out
+ * across v, and so counts for nothing. */
+static real refine(const search *q, const real weight[DIM + 1])
+{
+    vec w_low, w = single_out(q, weight, &w_low);
+    real l = root(q->vv);
+    if (!(l > 0)) return 0;
+    twin along = {0, dot(q->v, w_low)}, square = product_of(-l, l);
+    for (int i = 0; i < DIM; i++) {
+        gather(&along, product_of(q->v.c[i], w.c[i]));
+        gather(&square, product_of(q->v.c[i], q->v.c[i]));
+    }
+    real height = along.high / l; /* l is short by square / 2 l: so is the quotient too large */
+    twin back = product_of(-height, l);
+    gather(&back, along);
+    return height + (back.high + back.low - height * (square.high + square.low) / (2 * l)) / l;
 }
 
 /* The height of w, the corner least along v, bounds the separation from below. */
@@ -65,7 +149,9 @@ static inline void raise(search *q, vec v, vec w)
 
 static int repeats(const vertex *p, const vertex *q) { return same(p->x, q->x) & same(p->y, q->y); }
 
-/* Takes the corner in the spare slot into the simplex. 0, and nothing changed, where that brings v no nearer. */
+/* Takes the corner in the spare slot into the simplex. 0, and nothing changed, where that brings v no nearer. Near contact
+ * |v| is noise of a rounding of the corners, while their gap may still promise more than that: up to SIDESTEPS times in a
+ * query, v may stay where it is to within that noise. */
 static inline int advance(search *q)
 {
     simplex *s = &q->s;
@@ -75,16 +161,21 @@ static inline int advance(search *q)
     s->n = n + 1;
     vec v = nearest(s);
     real vv = dot(v, v);
-    if (!(vv < q->vv)) { /* once more without assumptions */
-        memcpy(s->at, at, sizeof at);
-        s->n = n + 1;
-        v = nearest_of_all(s);
-        vv = dot(v, v);
-    }
     if (!(vv < q->vv)) {
-        memcpy(s->at, at, sizeof at);
-        s->n = n;
-        return 0;
+        real noise = 4 * UNIT * root(q->vv) * spread(s->slot[at[n]].w);
+        if (vv < q->vv + noise && q->sidesteps < SIDESTEPS) {
+            q->sidesteps++;
+        } else { /* once more without assumptions */
+            memcpy(s->at, at, sizeof at);
+            s->n = n + 1;
+            v = nearest_of_all(s);
+            vv = dot(v, v);
+            if (!(vv < q->vv)) {
+                memcpy(s->at, at, sizeof at);
+                s->n = n;
+                return 0;
+            }
+        }
     }
     q->v = v;
     q->vv = vv;
@@ -110,7 +201,7 @@ static inline enum end consider(search *q, const goal *g)
     if (q->s.n > 0) {
         real gap = q->vv - dot(q->v, last->w);
         for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), last);
-        if (q->repeated || !(gap > 2 * UNIT * dot_size(q->v, last->w))) return STILL;
+        if (q->repeated || !(gap > UNIT / 2 * dot_size(q->v, last->w))) return STILL;
     }
     if (!advance(q)) return STILL;
     if (q->s.n == DIM + 1) return INSIDE;
@@ -147,6 +238,21 @@ static enum end descend(search *q, const goal *g)
     }
 }
 
+/* descend, and where v was too coarse to prove what it found, again along the sharpened v. */
+static enum end search_on(search *q, const goal *g)
+{
+    real weight[DIM + 1], reach[2];
+    enum end end = descend(q, g);
+    for (int i = 0; i < SHARPENINGS && end == STILL && q->steps < g->max_steps; i++) {
+        if (certify(q, weight) - q->lower <= 4 * q->d.doubt + q->d.slack || !sharpen(q)) break;
+        if (!ask(&q->d, q->v, spare(&q->s), reach)) return FAULT;
+        known(q, spare(&q->s));
+        q->repeated = 0;
+        end = descend(q, g);
+    }
+    return end;
+}
+
 static void blank(search *q)
 {
     clear(&q->s);
@@ -155,6 +261,8 @@ static void blank(search *q)
     q->normal = axis(0, 1);
     q->pending = 0;
     q->repeated = 0;
+    q->sidesteps = 0;
+    q->steps = 0;
     q->lender = NULL;
     q->borrowed = 0;
 }

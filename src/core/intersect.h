@@ -33,27 +33,32 @@ static void move(search *q, vec t)
     q->repeated = 0;
 }
 
-/* The search has ended on its origin. WITHIN: overlap by at least upper is proven. BEYOND: the separation is proven to be
- * at least lower, a rounding's worth below 0. Else not told. The steps and calls are added to q's. */
-static enum end probe(search *q, int max_steps, real *lower, real *upper)
+/* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen to a
+ * rounding's worth below 0, or to 0. Else not told. */
+static enum end probe(search *q, int max_steps, real *upper)
 {
     search p = *q;
     real ball = 4 * q->d.doubt, weight[DIM + 1], reach[2];
     goal g = {0, (real)0.75 * ball, 0, -1, 0, 1, max_steps};
     enum end end = WITHIN;
     for (int k = 0; k <= DIM && end == WITHIN; k++) {
+        vec t = mul(outpost(k), ball);
         p.d.c = q->d.c;
-        move(&p, mul(outpost(k), ball));
+        move(&p, t);
         if (certify(&p, weight) < g.within) continue;
         if (p.s.n > DIM) end = INSIDE;
         else if (p.steps >= max_steps) end = OPEN;
         else end = ask(&p.d, p.v, spare(&p.s), reach) ? descend(&p, &g) : FAULT;
         if (end == INSIDE || end == STILL) end = certify(&p, weight) < g.within ? WITHIN : STILL;
+        real lower = p.lower - dot(p.normal, t) - 32 * UNIT * ball;
+        if (end == BEYOND && lower > q->lower) {
+            q->lower = lower;
+            q->normal = p.normal;
+        }
     }
     q->steps = p.steps;
     q->d.calls = p.d.calls;
-    *lower = -4 * ball;
-    *upper = g.within - ball;
+    *upper = smaller(*upper, end == WITHIN ? g.within - ball : *upper);
     return end;
 }
 

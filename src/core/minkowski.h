@@ -17,6 +17,7 @@
 #ifndef GJK_CORE_MINKOWSKI_H
 #define GJK_CORE_MINKOWSKI_H
 
+#include "exact.h"
 #include "simplex.h"
 
 typedef struct body {
@@ -31,7 +32,7 @@ typedef struct body {
 
 typedef struct difference {
     body a, b;
-    vec c;
+    vec c, c_low;        /* and what rounding took from it */
     real scale, unscale; /* powers of two */
     real doubt;          /* rounding, as derived above */
     real slack;          /* what the supports may fall short beyond that, by the caller's word */
@@ -64,6 +65,25 @@ static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
 static inline vec place(const difference *d, const body *k, vec x) { return k->posed ? map(k->m, x) : mul(x, d->scale); }
 
 static inline vec corner_of(const difference *d, vec x, vec y) { return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c)); }
+
+/* What corner_of(x, y) is, to twice the digits, minus w. x and y are given with what rounding took from them. */
+static vec remainder_of(const difference *d, vec x, vec x_low, vec y, vec y_low, vec w)
+{
+    vec r;
+    for (int i = 0; i < DIM; i++) {
+        twin sum = {-w.c[i], -d->c_low.c[i]};
+        gather(&sum, (twin){-d->c.c[i], 0});
+        for (int j = 0; j < DIM; j++) {
+            real a = d->a.posed ? d->a.m[DIM * i + j] : i == j ? d->scale : 0;
+            real b = d->b.posed ? -d->b.m[DIM * i + j] : i == j ? -d->scale : 0;
+            gather(&sum, product_of(a, x.c[j]));
+            gather(&sum, product_of(b, y.c[j]));
+            sum.low += a * x_low.c[j] + b * y_low.c[j];
+        }
+        r.c[i] = sum.high + sum.low;
+    }
+    return r;
+}
 
 /* The corner of the difference that lies least along v. */
 static inline int ask(difference *d, vec v, vertex *p, real reach[2])
@@ -123,6 +143,7 @@ static int settle(difference *d, real slack)
         if (d->b.posed) d->b.m[i] *= d->scale;
     }
     d->c = mul(d->c, d->scale);
+    d->c_low = mul(d->c_low, d->scale);
     d->doubt = UNIT * d->scale * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
     d->slack = slack * d->scale * (d->a.stretch + d->b.stretch) * (1 + 8 * UNIT);
     d->wild = unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale);
@@ -139,9 +160,12 @@ static void start(difference *d, const shape *a, const shape *b)
 {
     seize(&d->a, a);
     seize(&d->b, b);
-    d->c = axis(0, 0);
-    if (b->pose) d->c = load(b->pose->p);
-    if (a->pose) d->c = sub(d->c, load(a->pose->p));
+    d->c = d->c_low = axis(0, 0);
+    for (int i = 0; i < DIM; i++) {
+        twin c = sum_of(b->pose ? b->pose->p[i] : 0, a->pose ? -a->pose->p[i] : 0);
+        d->c.c[i] = c.high;
+        d->c_low.c[i] = c.low;
+    }
     d->scale = 1;
     d->wild = 1; /* until known better */
 }

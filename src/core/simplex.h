@@ -4,6 +4,7 @@
  * simplex2.h and simplex3.h give, each for its dimension:
  *   nearest     drops the corners that do not carry the nearest point; the newest corner is known to carry it
  *   part        the nearest point of one part of the simplex, if it is in that part's interior
+ *   square_to   what of a vector is square to all edges
  *   proportion  the nearest point's weights on the corners that are left
  *   room        a full simplex: how far the origin is inside, after rounding; not above 0 where that is not certain
  * and both nearest points come from the face's normal, v = n (n.p) / (n.n), not from a weighted sum of corners: the
@@ -98,27 +99,36 @@ static vec nearest_of_all(simplex *s)
     return v;
 }
 
-/* The nearest point's weights, none negative, their sum 1 to rounding. */
-static void weigh(const simplex *s, real weight[DIM + 1])
+/* None negative, their sum 1 to rounding. */
+static void normalize(real weight[DIM + 1], int n)
 {
     real sum = 0;
-    for (int i = 0; i <= DIM; i++) weight[i] = 0;
-    proportion(s, weight);
-    for (int i = 0; i < s->n; i++) {
+    for (int i = 0; i < n; i++) {
         weight[i] = weight[i] > 0 ? weight[i] : 0;
         sum += weight[i];
     }
-    for (int i = 0; i < s->n; i++) weight[i] = sum > 0 ? weight[i] / sum : (real)(i == s->n - 1);
+    for (int i = 0; i < n; i++) weight[i] = sum > 0 ? weight[i] / sum : (real)(i == n - 1);
 }
 
-/* The combination of the corners' w, x or y. */
+/* The nearest point's weights. */
+static void weigh(const simplex *s, real weight[DIM + 1])
+{
+    for (int i = 0; i <= DIM; i++) weight[i] = 0;
+    proportion(s, weight);
+    normalize(weight, s->n);
+}
+
+/* Of a vertex: w, x or y, by its offset. */
+static inline vec member_of(const vertex *p, size_t member)
+{
+    return *(const vec *)(const void *)((const char *)p + member);
+}
+
+/* The weighted sum of the corners' w, x or y. */
 static vec blend(const simplex *s, const real weight[DIM + 1], size_t member)
 {
     vec r = axis(0, 0);
-    for (int i = 0; i < s->n; i++) {
-        const vec *p = (const vec *)(const void *)((const char *)&s->slot[s->at[i]] + member);
-        r = add(r, mul(*p, weight[i]));
-    }
+    for (int i = 0; i < s->n; i++) r = add(r, mul(member_of(corner(s, i), member), weight[i]));
     return r;
 }
 

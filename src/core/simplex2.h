@@ -54,6 +54,12 @@ static vec nearest(simplex *s)
     return nearest_on_edge(s, gain(p, sub(point(s, 1), p)) > gain(p, sub(point(s, 0), p)), 2);
 }
 
+static vec square_to(const simplex *s, vec v)
+{
+    vec e = sub(point(s, 1), point(s, 0)), n = {{-e.c[1], e.c[0]}};
+    return s->n == 2 ? mul(n, dot(n, v) / dot(n, n)) : v;
+}
+
 static void proportion(const simplex *s, real weight[3])
 {
     vec v;

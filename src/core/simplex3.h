@@ -129,6 +129,13 @@ static vec nearest(simplex *s)
     return v;
 }
 
+static vec square_to(const simplex *s, vec v)
+{
+    vec a = sub(point(s, 1), point(s, 0)), b = sub(point(s, 2), point(s, 0)), n = cross(a, b);
+    if (s->n == 2) v = sub(v, mul(a, dot(v, a) / dot(a, a)));
+    return s->n == 3 ? mul(n, dot(n, v) / dot(n, n)) : v;
+}
+
 static void proportion(const simplex *s, real weight[4])
 {
     vec v;

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/* Error-free sums and products: what rounding takes away, as a number (Dekker 1971, Knuth). Exact where nothing over- or
+ * underflows. Without fused multiply-add, which not every machine has: the bits are the same either way. */
+#ifndef GJK_CORE_EXACT_H
+#define GJK_CORE_EXACT_H
+
+#include "linear.h"
+
+typedef struct twin {
+    real high, low; /* their sum is the number; high is that sum rounded */
+} twin;
+
+static inline twin sum_of(real a, real b)
+{
+    real s = a + b, t = s - a;
+    twin r = {s, (a - (s - t)) + (b - t)};
+    return r;
+}
+
+/* The upper half of the digits; the rest fits into a half too. */
+static inline real upper_half(real a)
+{
+    real t = a * (real)((bits)1 << (MANTISSA + 2) / 2 | 1);
+    return t - (t - a);
+}
+
+static inline twin product_of(real a, real b)
+{
+    real p = a * b, ah = upper_half(a), al = a - ah, bh = upper_half(b), bl = b - bh;
+    twin r = {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+    return r;
+}
+
+/* Adds x to the sum, keeping what is rounded off. */
+static inline void gather(twin *sum, twin x)
+{
+    twin s = sum_of(sum->high, x.high);
+    sum->high = s.high;
+    sum->low += s.low + x.low;
+}
+
+#endif
