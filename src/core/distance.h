@@ -50,28 +50,19 @@ typedef struct search {
     unsigned borrowed;   /* slots that still hold them */
 } search;
 
-/* The weights leave their corner off v by a slip across it. Weighing the slip itself, with the same error, tells what to
- * take back. */
-static void correct(const search *q, vec slip, real weight[DIM + 1])
-{
-    simplex s = q->s;
-    real before[DIM + 1], after[DIM + 1];
-    weigh(&s, before);
-    for (int i = 0; i < s.n; i++) s.slot[s.at[i]].w = sub(point(&s, i), slip);
-    weigh(&s, after);
-    for (int i = 0; i < s.n; i++) weight[i] += before[i] - after[i];
-    normalize(weight, s.n);
-}
-
-/* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. */
+/* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. In a narrow
+ * simplex they are coarse, and their corner off v by a slip across it; what the slip says of them is taken back. */
 static real certify(const search *q, real weight[DIM + 1])
 {
     weigh(&q->s, weight);
     vec x = blend(&q->s, weight, offsetof(vertex, w));
-    for (int i = 0; i < 2 && length(sub(x, q->v)) > 4 * UNIT; i++) {
+    for (int i = 0; i < 3; i++) {
         real better[DIM + 1];
-        memcpy(better, weight, sizeof better);
-        correct(q, sub(x, q->v), better);
+        vec slip = sub(x, q->v);
+        if (!(peak(slip) > 4 * UNIT)) break;
+        change(&q->s, slip, better);
+        for (int k = 0; k < q->s.n; k++) better[k] = weight[k] - better[k];
+        normalize(better, q->s.n);
         vec y = blend(&q->s, better, offsetof(vertex, w));
         if (!(dot(y, y) < dot(x, x))) break;
         memcpy(weight, better, sizeof better);
@@ -161,21 +152,20 @@ static inline int advance(search *q)
     s->n = n + 1;
     vec v = nearest(s);
     real vv = dot(v, v);
+    if (!(vv < q->vv)) { /* once more without assumptions */
+        memcpy(s->at, at, sizeof at);
+        s->n = n + 1;
+        v = nearest_of_all(s, 1u << n);
+        vv = dot(v, v);
+    }
     if (!(vv < q->vv)) {
         real noise = 4 * UNIT * root(q->vv) * spread(s->slot[at[n]].w);
-        if (vv < q->vv + noise && q->sidesteps < SIDESTEPS) {
-            q->sidesteps++;
-        } else { /* once more without assumptions */
+        if (!(vv < q->vv + noise) || q->sidesteps == SIDESTEPS) {
             memcpy(s->at, at, sizeof at);
-            s->n = n + 1;
-            v = nearest_of_all(s);
-            vv = dot(v, v);
-            if (!(vv < q->vv)) {
-                memcpy(s->at, at, sizeof at);
-                s->n = n;
-                return 0;
-            }
+            s->n = n;
+            return 0;
         }
+        q->sidesteps++;
     }
     q->v = v;
     q->vv = vv;
@@ -243,8 +233,10 @@ static enum end search_on(search *q, const goal *g)
 {
     real weight[DIM + 1], reach[2];
     enum end end = descend(q, g);
-    for (int i = 0; i < SHARPENINGS && end == STILL && q->steps < g->max_steps; i++) {
-        if (certify(q, weight) - q->lower <= 4 * q->d.doubt + q->d.slack || !sharpen(q)) break;
+    for (int i = 0; i < SHARPENINGS && end == STILL; i++) {
+        if (certify(q, weight) - q->lower <= 4 * q->d.doubt + q->d.slack) break;
+        if (q->steps >= g->max_steps) return OPEN;
+        if (!sharpen(q)) break;
         if (!ask(&q->d, q->v, spare(&q->s), reach)) return FAULT;
         known(q, spare(&q->s));
         q->repeated = 0;
@@ -313,7 +305,7 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     }
     q->lender = k;
     q->borrowed = (1u << k->count) - 1;
-    q->v = nearest_of_all(&q->s);
+    q->v = nearest_of_all(&q->s, 0);
     q->vv = dot(q->v, q->v);
     vec dir = vanished(q) ? away(q) : q->v;
     if (!ask(&q->d, dir, &first, reach)) return 0;

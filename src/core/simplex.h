@@ -5,6 +5,7 @@
  *   nearest     drops the corners that do not carry the nearest point; the newest corner is known to carry it
  *   part        the nearest point of one part of the simplex, if it is in that part's interior
  *   square_to   what of a vector is square to all edges
+ *   change      of the weights on the corners, when the point they single out moves
  *   proportion  the nearest point's weights on the corners that are left
  *   room        a full simplex: how far the origin is inside, after rounding; not above 0 where that is not certain
  * and both nearest points come from the face's normal, v = n (n.p) / (n.n), not from a weighted sum of corners: the
@@ -63,6 +64,7 @@ static inline int edge(vec p, vec q, vec *v, real weight[2])
     *v = mul(n, dot(n, from_p < from_q ? p : q) / l);
 #else
     *v = from_p < from_q ? add(p, mul(e, from_p / l)) : sub(q, mul(e, from_q / l));
+    *v = sub(*v, mul(e, dot(*v, e) / l)); /* square to the edge by v's measure, not just by p's */
 #endif
     return 1;
 }
@@ -80,15 +82,16 @@ static inline real gain(vec p, vec e)
 #include "simplex3.h"
 #endif
 
-/* The least of all parts of the simplex, tried one by one; slower, and free of assumptions. Drops the rest. */
-static vec nearest_of_all(simplex *s)
+/* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free of
+ * assumptions. Drops the other corners. */
+static vec nearest_of_all(simplex *s, unsigned required)
 {
     unsigned best = 0, all = 1u << s->n;
     real least = 0;
     vec v = axis(0, 0);
     for (unsigned mask = 1; mask < all; mask++) {
         vec p;
-        if (!part(s, mask, &p)) continue;
+        if ((mask & required) != required || !part(s, mask, &p)) continue;
         real d = dot(p, p);
         if (best != 0 && !(d < least)) continue;
         best = mask;

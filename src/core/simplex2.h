@@ -60,6 +60,18 @@ static vec square_to(const simplex *s, vec v)
     return s->n == 2 ? mul(n, dot(n, v) / dot(n, n)) : v;
 }
 
+static void change(const simplex *s, vec way, real weight[3])
+{
+    vec p = point(s, 0), a = sub(point(s, 1), p), b = sub(point(s, 2), p);
+    weight[1] = s->n == 2 ? dot(way, a) / dot(a, a) : 0;
+    weight[2] = 0;
+    if (s->n == 3) {
+        weight[1] = cross(way, b) / cross(a, b);
+        weight[2] = cross(a, way) / cross(a, b);
+    }
+    weight[0] = -weight[1] - weight[2];
+}
+
 static void proportion(const simplex *s, real weight[3])
 {
     vec v;

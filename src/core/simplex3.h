@@ -20,6 +20,7 @@ static void across(vec p, vec along, vec aside, vec *v, real weight[3])
     weight[1] = reach - weight[2] * lean;
     weight[0] = 1 - weight[1] - weight[2];
     *v = add(foot, mul(up, weight[2]));
+    *v = sub(*v, mul(along, dot(*v, along) / ll));
 }
 
 /* Where the origin projects onto the plane of the triangle, if that is strictly inside it. Weights of p, q, r. */
@@ -134,6 +135,23 @@ static vec square_to(const simplex *s, vec v)
     vec a = sub(point(s, 1), point(s, 0)), b = sub(point(s, 2), point(s, 0)), n = cross(a, b);
     if (s->n == 2) v = sub(v, mul(a, dot(v, a) / dot(a, a)));
     return s->n == 3 ? mul(n, dot(n, v) / dot(n, n)) : v;
+}
+
+static void change(const simplex *s, vec way, real weight[4])
+{
+    vec p = point(s, 0), a = sub(point(s, 1), p), b = sub(point(s, 2), p), c = sub(point(s, 3), p), n = cross(a, b);
+    weight[1] = s->n == 2 ? dot(way, a) / dot(a, a) : 0;
+    weight[2] = weight[3] = 0;
+    if (s->n == 3) {
+        weight[1] = dot(n, cross(way, b)) / dot(n, n);
+        weight[2] = dot(n, cross(a, way)) / dot(n, n);
+    } else if (s->n == 4) {
+        real whole = dot(n, c);
+        weight[1] = dot(way, cross(b, c)) / whole;
+        weight[2] = dot(way, cross(c, a)) / whole;
+        weight[3] = dot(way, n) / whole;
+    }
+    weight[0] = -weight[1] - weight[2] - weight[3];
 }
 
 static void proportion(const simplex *s, real weight[4])
