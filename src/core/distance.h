@@ -12,7 +12,7 @@
 
 #include "minkowski.h"
 
-#define SIDESTEPS 16
+#define SIDESTEPS 6
 #define SHARPENINGS 8
 
 /* What would settle the question, in lengths of the scaled frame. */
@@ -155,11 +155,11 @@ static inline int advance(search *q)
     if (!(vv < q->vv)) { /* once more without assumptions */
         memcpy(s->at, at, sizeof at);
         s->n = n + 1;
-        v = nearest_of_all(s, 1u << n);
+        v = nearest_of_all(s, 1u << n, 1, 16 * UNIT);
         vv = dot(v, v);
     }
     if (!(vv < q->vv)) {
-        real noise = 4 * UNIT * root(q->vv) * spread(s->slot[at[n]].w);
+        real noise = 16 * UNIT * root(q->vv); /* of corners in a frame of size 1 to 4 */
         if (!(vv < q->vv + noise) || q->sidesteps == SIDESTEPS) {
             memcpy(s->at, at, sizeof at);
             s->n = n;
@@ -175,6 +175,17 @@ static inline int advance(search *q)
 
 /* |v| is below half a rounding of the frame, which is of size 1 to 4: it has no direction. */
 static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
+
+/* A full simplex that holds the origin, but so narrow that rounding may have put it there, is searched on from the face
+ * that the origin is nearest to. */
+static int flatten(search *q)
+{
+    if (q->sidesteps == SIDESTEPS) return 0;
+    q->sidesteps++;
+    q->v = nearest_of_all(&q->s, 0, 0, 0);
+    q->vv = dot(q->v, q->v);
+    return 1;
+}
 
 /* What the corner in the spare slot shows; OPEN where the search may go on. */
 static inline enum end consider(search *q, const goal *g)
@@ -194,7 +205,7 @@ static inline enum end consider(search *q, const goal *g)
         if (q->repeated || !(gap > UNIT / 2 * dot_size(q->v, last->w))) return STILL;
     }
     if (!advance(q)) return STILL;
-    if (q->s.n == DIM + 1) return INSIDE;
+    if (q->s.n > DIM && (room(&q->s) > q->d.doubt || !flatten(q))) return INSIDE;
     if (vanished(q)) return STILL;
     if (!g->early) return OPEN;
     real upper = root(q->vv) + q->d.doubt;
@@ -305,7 +316,7 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     }
     q->lender = k;
     q->borrowed = (1u << k->count) - 1;
-    q->v = nearest_of_all(&q->s, 0);
+    q->v = nearest_of_all(&q->s, 0, 1, 0);
     q->vv = dot(q->v, q->v);
     vec dir = vanished(q) ? away(q) : q->v;
     if (!ask(&q->d, dir, &first, reach)) return 0;

@@ -27,7 +27,7 @@ static void move(search *q, vec t)
         vertex *p = &q->s.slot[q->s.at[i]];
         p->w = corner_of(&q->d, p->x, p->y);
     }
-    q->v = nearest_of_all(&q->s, 0);
+    q->v = nearest_of_all(&q->s, 0, 1, 0);
     q->vv = dot(q->v, q->v);
     q->lower = -REAL_MAX;
     q->repeated = 0;

@@ -50,15 +50,15 @@ static inline void keep(simplex *s, unsigned mask)
     for (int i = 0; i < n; i++) s->at[k + i] = dropped[i];
 }
 
-/* Where the origin projects onto the line through p and q, if that is strictly between them. The weights, here and in
- * what follows, are in proportion; their sum is not 1. */
-static inline int edge(vec p, vec q, vec *v, real weight[2])
+/* Where the origin projects onto the line through p and q, if that is between them, or beyond by no more than the leeway,
+ * a share of the whole. The weights, here and in what follows, are in proportion; their sum is not 1. */
+static inline int edge(vec p, vec q, real leeway, vec *v, real weight[2])
 {
     vec e = sub(q, p);
     real from_p = -dot(p, e), from_q = dot(q, e), l = dot(e, e);
     weight[0] = from_q;
     weight[1] = from_p;
-    if (!(from_p > 0) || !(from_q > 0) || !(l > 0)) return 0;
+    if (!(from_p > -leeway * l) || !(from_q > -leeway * l) || !(l > 0)) return 0;
 #if DIM == 2
     vec n = {{-e.c[1], e.c[0]}};
     *v = mul(n, dot(n, from_p < from_q ? p : q) / l);
@@ -83,15 +83,16 @@ static inline real gain(vec p, vec e)
 #endif
 
 /* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free of
- * assumptions. Drops the other corners. */
-static vec nearest_of_all(simplex *s, unsigned required)
+ * assumptions. A full simplex, which no direction leads out of, counts as a part only if solid. With leeway, a part also
+ * serves where its plane's nearest point is outside it by a rounding. Drops the other corners. */
+static vec nearest_of_all(simplex *s, unsigned required, int solid, real leeway)
 {
-    unsigned best = 0, all = 1u << s->n;
+    unsigned best = 0, all = s->n > DIM && !solid ? (1u << s->n) - 1 : 1u << s->n;
     real least = 0;
     vec v = axis(0, 0);
     for (unsigned mask = 1; mask < all; mask++) {
         vec p;
-        if ((mask & required) != required || !part(s, mask, &p)) continue;
+        if ((mask & required) != required || !part(s, mask, leeway, &p)) continue;
         real d = dot(p, p);
         if (best != 0 && !(d < least)) continue;
         best = mask;

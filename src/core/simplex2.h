@@ -17,15 +17,16 @@ static int holds(const simplex *s, real weight[3])
     return weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
 }
 
-/* The part of the simplex that the mask picks: its point nearest the origin, if that is in its interior. */
-static int part(const simplex *s, unsigned mask, vec *v)
+/* The part of the simplex that the mask picks: its point nearest the origin, if that is in its
+ * interior, or outside by no more than the leeway. */
+static int part(const simplex *s, unsigned mask, real leeway, vec *v)
 {
     int k[3], n = 0;
     real weight[3];
     for (int i = 0; i < s->n; i++)
         if (mask >> i & 1) k[n++] = i;
     *v = n == 1 ? point(s, k[0]) : axis(0, 0);
-    if (n == 2) return edge(point(s, k[0]), point(s, k[1]), v, weight);
+    if (n == 2) return edge(point(s, k[0]), point(s, k[1]), leeway, v, weight);
     return n == 3 ? holds(s, weight) : 1;
 }
 
@@ -34,7 +35,7 @@ static inline vec nearest_on_edge(simplex *s, int i, int j)
     real weight[2];
     vec v;
     unsigned both = 1u << i | 1u << j;
-    if (edge(point(s, i), point(s, j), &v, weight)) {
+    if (edge(point(s, i), point(s, j), 0, &v, weight)) {
         keep(s, both);
         return v;
     }
@@ -76,7 +77,7 @@ static void proportion(const simplex *s, real weight[3])
 {
     vec v;
     weight[0] = 1;
-    if (s->n == 2) edge(point(s, 0), point(s, 1), &v, weight);
+    if (s->n == 2) edge(point(s, 0), point(s, 1), 0, &v, weight);
     if (s->n == 3) holds(s, weight);
 }
 

@@ -23,8 +23,9 @@ static void across(vec p, vec along, vec aside, vec *v, real weight[3])
     *v = sub(*v, mul(along, dot(*v, along) / ll));
 }
 
-/* Where the origin projects onto the plane of the triangle, if that is strictly inside it. Weights of p, q, r. */
-static inline int face(vec p, vec q, vec r, vec *v, real weight[3])
+/* Where the origin projects onto the plane of the triangle, if that is inside it or outside by no more than the
+ * leeway. Weights of p, q, r. */
+static inline int face(vec p, vec q, vec r, real leeway, vec *v, real weight[3])
 {
     vec a = sub(q, p), b = sub(r, p), n = cross(a, b);
     real nn = dot(n, n), aa = dot(a, a), bb = dot(b, b);
@@ -43,7 +44,8 @@ static inline int face(vec p, vec q, vec r, vec *v, real weight[3])
         weight[1] = weight[2];
         weight[2] = t;
     }
-    return weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+    real least = -leeway * (weight[0] + weight[1] + weight[2]);
+    return weight[0] > least && weight[1] > least && weight[2] > least;
 }
 
 /* Six times the signed volumes that the origin makes with the faces, as weights of the corners opposite. */
@@ -59,16 +61,17 @@ static int holds(const simplex *s, real weight[4])
     return weight[0] > 0 && weight[1] > 0 && weight[2] > 0 && weight[3] > 0;
 }
 
-/* The part of the simplex that the mask picks: its point nearest the origin, if that is in its interior. */
-static int part(const simplex *s, unsigned mask, vec *v)
+/* The part of the simplex that the mask picks: its point nearest the origin, if that is in its
+ * interior, or outside by no more than the leeway. */
+static int part(const simplex *s, unsigned mask, real leeway, vec *v)
 {
     int k[4], n = 0;
     real weight[4];
     for (int i = 0; i < s->n; i++)
         if (mask >> i & 1) k[n++] = i;
     *v = n == 1 ? point(s, k[0]) : axis(0, 0);
-    if (n == 2) return edge(point(s, k[0]), point(s, k[1]), v, weight);
-    if (n == 3) return face(point(s, k[0]), point(s, k[1]), point(s, k[2]), v, weight);
+    if (n == 2) return edge(point(s, k[0]), point(s, k[1]), leeway, v, weight);
+    if (n == 3) return face(point(s, k[0]), point(s, k[1]), point(s, k[2]), leeway, v, weight);
     return n == 4 ? holds(s, weight) : 1;
 }
 
@@ -76,7 +79,7 @@ static inline vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask
 {
     real weight[2];
     vec v;
-    if (edge(point(s, i), point(s, j), &v, weight)) {
+    if (edge(point(s, i), point(s, j), 0, &v, weight)) {
         *mask = 1u << i | 1u << j;
         return v;
     }
@@ -89,7 +92,7 @@ static inline vec nearest_on_face(const simplex *s, int i, int j, int k, unsigne
 {
     real weight[3];
     vec v, p = point(s, k);
-    if (face(p, point(s, i), point(s, j), &v, weight)) {
+    if (face(p, point(s, i), point(s, j), 0, &v, weight)) {
         *mask = 1u << i | 1u << j | 1u << k;
         return v;
     }
@@ -158,8 +161,8 @@ static void proportion(const simplex *s, real weight[4])
 {
     vec v;
     weight[0] = 1;
-    if (s->n == 2) edge(point(s, 0), point(s, 1), &v, weight);
-    if (s->n == 3) face(point(s, 0), point(s, 1), point(s, 2), &v, weight);
+    if (s->n == 2) edge(point(s, 0), point(s, 1), 0, &v, weight);
+    if (s->n == 3) face(point(s, 0), point(s, 1), point(s, 2), 0, &v, weight);
     if (s->n == 4) holds(s, weight);
 }
 
