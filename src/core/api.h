@@ -101,11 +101,11 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
     return end;
 }
 
-/* Where the bracket of the cores straddles contact, and steps are left, finds out on which side they are, if rounding
+/* Where the search has come to its end on contact, and the bracket of the cores straddles it, finds out on which side they are, if rounding
  * allows. 0: a support's answer was none. */
 static int tell(search *q, const goal *g, real *upper, enum end *end)
 {
-    if (*end == OPEN || q->lower > 0 || *upper < 0 || *upper < g->within * q->d.scale) return 1;
+    if ((*end != STILL && *end != INSIDE) || q->lower > 0 || *upper < 0 || *upper < g->within * q->d.scale) return 1;
     enum end told = probe(q, g->max_steps, upper);
     if (told == OPEN) *end = OPEN;
     return told != FAULT;

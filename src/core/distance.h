@@ -153,13 +153,11 @@ static inline int advance(search *q)
     vec v = nearest(s);
     real vv = dot(v, v);
     if (!(vv < q->vv)) { /* once more without assumptions */
+        real noise = 16 * UNIT * root(q->vv); /* of corners in a frame of size 1 to 4 */
         memcpy(s->at, at, sizeof at);
         s->n = n + 1;
-        v = nearest_of_all(s, 1u << n, 1, 16 * UNIT);
+        v = nearest_of_all(s, 1u << n, 1, noise);
         vv = dot(v, v);
-    }
-    if (!(vv < q->vv)) {
-        real noise = 16 * UNIT * root(q->vv); /* of corners in a frame of size 1 to 4 */
         if (!(vv < q->vv + noise) || q->sidesteps == SIDESTEPS) {
             memcpy(s->at, at, sizeof at);
             s->n = n;

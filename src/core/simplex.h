@@ -83,17 +83,20 @@ static inline real gain(vec p, vec e)
 #endif
 
 /* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free of
- * assumptions. A full simplex, which no direction leads out of, counts as a part only if solid. With leeway, a part also
- * serves where its plane's nearest point is outside it by a rounding. Drops the other corners. */
-static vec nearest_of_all(simplex *s, unsigned required, int solid, real leeway)
+ * assumptions. A full simplex, which no direction leads out of, counts as a part only if solid. Drops the other corners.
+ *
+ * With noise, in squared distance, a part also serves where its plane's nearest point is outside it by a rounding, and of
+ * parts that are equal to within the noise the one with more corners is taken: in truth it is never the farther one. */
+static vec nearest_of_all(simplex *s, unsigned required, int solid, real noise)
 {
     unsigned best = 0, all = s->n > DIM && !solid ? (1u << s->n) - 1 : 1u << s->n;
     real least = 0;
     vec v = axis(0, 0);
     for (unsigned mask = 1; mask < all; mask++) {
         vec p;
-        if ((mask & required) != required || !part(s, mask, leeway, &p)) continue;
+        if ((mask & required) != required || !part(s, mask, noise > 0 ? 16 * UNIT : 0, &p)) continue;
         real d = dot(p, p);
+        for (int i = 0; i < s->n; i++) d -= mask >> i & 1 ? noise : 0;
         if (best != 0 && !(d < least)) continue;
         best = mask;
         least = d;

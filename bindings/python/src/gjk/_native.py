@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: MIT
+"""The four variants of the C library behind one face, and the way back from C into a Python support."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from typing import Any, Callable, NamedTuple
+
+from ._gjk import ffi, lib
+from .coordinates import numbers
+from .errors import BadArgument
+
+__all__ = ["PRECISIONS", "Native", "Variant", "callback_handle", "raise_from_callback", "variant"]
+
+PRECISIONS = ("double", "float")
+
+
+class Variant:
+    """The types and functions of one of gjk2_, gjk2f_, gjk3_ and gjk3f_."""
+
+    def __init__(self, dim: int, precision: str) -> None:
+        self.dim = dim
+        self.precision = precision
+        self.name = f"gjk{dim}" + ("f" if precision == "float" else "")
+        self.real = precision
+        self.distance = self.function("distance")
+        self.intersect = self.function("intersect")
+        self.options_type = ffi.typeof(f"{self.name}_options *")
+        self.options_size: int = ffi.sizeof(f"{self.name}_options")
+        self.result_type = ffi.typeof(f"{self.name}_result *")
+        self.bench = getattr(lib, self.name.replace("gjk", "bench"))
+
+    def __repr__(self) -> str:
+        return f"<{self.name}>"
+
+    def function(self, stem: str) -> Any:
+        return getattr(lib, f"{self.name}_{stem}")
+
+    def address(self, stem: str) -> Any:
+        return ffi.addressof(lib, f"{self.name}_{stem}")
+
+    def new(self, stem: str, value: Any = None) -> Any:
+        """A new C struct, such as new("box", {"half": (1, 2, 3)}); it lives as long as the object returned."""
+        return ffi.new(f"{self.name}_{stem} *", value)
+
+    def rounded(self, values: tuple[float, ...]) -> tuple[float, ...]:
+        """The values as this precision holds them."""
+        return values if self.real == "double" else tuple(ffi.new("float[]", values))
+
+    def reals(self, values: Sequence[float]) -> Any:
+        return ffi.new(f"{self.real}[]", values)
+
+
+_VARIANTS = {(dim, precision): Variant(dim, precision) for dim in (2, 3) for precision in PRECISIONS}
+
+
+def variant(dim: int, precision: str) -> Variant:
+    try:
+        return _VARIANTS[dim, precision]
+    except (KeyError, TypeError):
+        raise BadArgument(f'precision is "double" or "float", not {precision!r}') from None
+
+
+class Native(NamedTuple):
+    """A support and its data as C knows them. `keep` holds what the pointers point to."""
+
+    support: Any
+    data: Any
+    keep: tuple[Any, ...]
+    python: bool
+    """Whether a query may call back into Python."""
+
+
+_raised = threading.local()
+
+
+def callback_handle(function: Callable[..., Any], dim: int, reach: float) -> Any:
+    """What C hands back to `_answer` as data. Keep it alive as long as C holds it."""
+    return ffi.new_handle((function, dim, reach))
+
+
+def raise_from_callback() -> None:
+    """Raise here what a Python support raised during the query that has just ended."""
+    error = getattr(_raised, "error", None)
+    if error is not None:
+        _raised.error = None
+        raise error
+
+
+def _answer(data: Any, direction: Any, point: Any) -> float:
+    function, dim, reach = ffi.from_handle(data)
+    try:
+        x = numbers(function(tuple(direction[0:dim])), "support")
+        if len(x) != dim:
+            raise BadArgument(f"support: {len(x)} coordinates instead of {dim}")
+    except BaseException as error:  # C cannot carry it: it is kept, and raised when the query has ended
+        if getattr(_raised, "error", None) is None:
+            _raised.error = error
+        x = (float("nan"),) * dim
+    for i in range(dim):
+        point[i] = x[i]
+    return float(reach)
+
+
+for _variant in _VARIANTS.values():
+    ffi.def_extern(f"{_variant.name}_python_support")(_answer)

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""Cases and shapes as JSON objects: the one format of tests, tools and bug reports.
+
+A case is {"id", "dim": 2 | 3, "precision": "double" | "float", "query": "distance" | "intersect", "a": SHAPE,
+"b": SHAPE, "options": {...}}. Fields not known here are ignored. SHAPE is described in `shape_from_json`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Callable
+
+from .errors import BadArgument, Error, Status
+from .query import Relation, Result, Separation, distance, intersect
+from .shapes import (
+    Ball,
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Disc,
+    Ellipsoid,
+    Hull,
+    Points,
+    Segment,
+    Shape,
+    Sphere,
+    Sum,
+    Triangle,
+)
+
+__all__ = ["QUERIES", "posed", "result_to_json", "shape_from_json", "shape_to_json", "solve_case"]
+
+QUERIES = ("distance", "intersect")
+OPTIONS = {
+    "distance": ("cutoff", "max_steps", "abs_tol", "rel_tol", "slack"),
+    "intersect": ("max_steps", "slack"),
+}
+
+
+def shape_from_json(shape: Any, dim: int) -> Shape:
+    """The shape that a JSON object tells of.
+
+    {"shape": KIND, ...} with the fields of the kind - points: points; box: half; segment, triangle: v; sphere, disc:
+    r; capsule, cylinder, cone: r and half_length; ellipsoid: radii; sum, hull: a and b - and for every kind "radius"
+    and "pose", dim * (dim + 1) numbers.
+    """
+    if not isinstance(shape, dict):
+        raise BadArgument(f"a shape is an object, not {shape!r}")
+    kind = shape.get("shape")
+    make = _KINDS.get(kind) if isinstance(kind, str) else None
+    if make is None:
+        raise BadArgument(f"no such shape: {kind!r}")
+    try:
+        made = make(shape, dim)
+    except KeyError as missing:
+        raise BadArgument(f"{kind} without {missing}") from None
+    if made.dim != dim:
+        raise BadArgument(f"{kind}: {made.dim}-D in a {dim}-D case")
+    made = made.at(shape.get("pose"))
+    radius = shape.get("radius") or 0.0
+    if radius and isinstance(made, (Sphere, Capsule)):
+        return Sum(made, Sphere(radius, dim=dim))  # adding the radii in Python would round
+    return made.rounded(radius)
+
+
+_KINDS: dict[str, Callable[[dict[str, Any], int], Shape]] = {
+    "points": lambda s, dim: Points(s["points"], dim=dim),
+    "box": lambda s, dim: Box(s["half"]),
+    "segment": lambda s, dim: Segment(s["v"]),
+    "triangle": lambda s, dim: Triangle(s["v"]),
+    "sphere": lambda s, dim: Sphere(s["r"], dim=dim),
+    "capsule": lambda s, dim: Capsule(s["r"], s["half_length"], dim=dim),
+    "cylinder": lambda s, dim: Cylinder(s["r"], s["half_length"]),
+    "cone": lambda s, dim: Cone(s["r"], s["half_length"]),
+    "disc": lambda s, dim: Disc(s["r"]),
+    "ellipsoid": lambda s, dim: Ellipsoid(s["radii"]),
+    "sum": lambda s, dim: Sum(shape_from_json(s["a"], dim), shape_from_json(s["b"], dim)),
+    "hull": lambda s, dim: Hull(shape_from_json(s["a"], dim), shape_from_json(s["b"], dim)),
+}
+
+
+def shape_to_json(shape: Shape) -> dict[str, Any]:
+    """The JSON object of a shape; a Support has none."""
+    made = _fields(shape)
+    if shape.pose is not None:
+        made["pose"] = list(shape.pose)
+    if shape.radius and not isinstance(shape, (Sphere, Capsule)):
+        made["radius"] = shape.radius
+    return made
+
+
+def _fields(shape: Shape) -> dict[str, Any]:
+    kind = type(shape).__name__.lower()
+    if isinstance(shape, Sphere):
+        return {"shape": kind, "r": shape.radius}
+    if isinstance(shape, Capsule):
+        return {"shape": kind, "r": shape.radius, "half_length": shape.half_length}
+    if isinstance(shape, Ball):
+        return {"shape": "ellipsoid", "radii": [shape.r] * shape.dim}
+    if isinstance(shape, (Sum, Hull)):
+        return {"shape": kind, "a": shape_to_json(shape.a), "b": shape_to_json(shape.b)}
+    if kind not in _KINDS:
+        raise BadArgument(f"{shape!r} cannot be written as JSON")
+    return {"shape": kind, **{name: _listed(getattr(shape, name)) for name in shape._sizes}}
+
+
+def _listed(value: Any) -> Any:
+    return [_listed(v) for v in value] if isinstance(value, tuple) else value
+
+
+def posed(shape: Shape, pose: Any) -> Shape:
+    """The set { pose(x) : x in the shape without its radius }, grown by that radius.
+
+    Where the shape has a pose of its own, the two stay apart: their product would round.
+    """
+    if shape.pose is None or pose is None:
+        return shape if pose is None else shape.at(pose)
+    core = shape._with(radius=0.0)
+    return Sum(core, Points([(0.0,) * shape.dim])).at(pose).rounded(shape.radius)
+
+
+def solve_case(case: dict[str, Any], query: str | None = None) -> dict[str, Any]:
+    """The answer to a case as a JSON object. query is the question where the case does not say one.
+
+    Bad input makes an object with the status and a message; nothing is raised.
+    """
+    answer = {"id": case["id"]} if "id" in case else {}
+    asked = case.get("query", query or QUERIES[0])
+    if asked not in QUERIES:
+        return {**answer, "status": "unsupported query", "message": f"query {asked!r}; known are {', '.join(QUERIES)}"}
+    try:
+        return {**answer, **result_to_json(_ask(case, asked))}
+    except RecursionError:
+        return {**answer, "status": Status.BAD_ARGUMENT.label, "message": "shapes nested too deep"}
+    except Error as wrong:
+        return {**answer, "status": wrong.status.label, "message": str(wrong)}
+
+
+def _ask(case: dict[str, Any], asked: str) -> Result:
+    dim = case.get("dim", 3)
+    if dim not in (2, 3) or isinstance(dim, (bool, float)):
+        raise BadArgument(f"dim is 2 or 3, not {dim!r}")
+    if "a" not in case or "b" not in case:
+        raise BadArgument("a case has two shapes, a and b")
+    a, b = shape_from_json(case["a"], dim), shape_from_json(case["b"], dim)
+    given = case.get("options") or {}
+    if not isinstance(given, dict):
+        raise BadArgument(f"options is an object, not {given!r}")
+    options = {name: given[name] for name in OPTIONS[asked] if name in given}
+    ask = distance if asked == "distance" else intersect
+    return ask(a, b, precision=case.get("precision", "double"), **options)
+
+
+def result_to_json(result: Result) -> dict[str, Any]:
+    """A result as a JSON object. "intersect" is there where the bracket proves it either way."""
+    answer = {**result._asdict(), "status": result.status.label}
+    meet = _meet(result)
+    if meet is not None:
+        answer["intersect"] = meet
+    return answer
+
+
+def _meet(result: Result) -> bool | None:
+    if result.lower > 0:
+        return False
+    if isinstance(result, Separation):
+        return True if result.relation is Relation.OVERLAPPING else None
+    return True if result.upper == 0 else None

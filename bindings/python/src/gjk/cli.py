@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT
+"""The command gjk."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, TextIO
+
+from . import __version__
+from .cases import QUERIES, solve_case
+
+__all__ = ["main"]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    chosen = _parser().parse_args(arguments)
+    try:
+        return int(chosen.run(chosen))
+    except BrokenPipeError:  # the reader has seen enough: say no more, not even at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except KeyboardInterrupt:
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="gjk", description="How two convex sets stand to each other, with proof.")
+    parser.add_argument("--version", action="version", version=f"gjk {__version__}")
+    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+    _add_query(commands)
+    _add_report(commands)
+    return parser
+
+
+def _add_query(commands: Any) -> None:
+    text = "Answer cases. Reads one JSON object a line, writes one a line."
+    query = commands.add_parser("query", help="answer cases, one JSON object a line", description=text)
+    query.add_argument("file", nargs="?", metavar="FILE", help="of cases; standard input where absent")
+    query.add_argument("--query", choices=QUERIES, help="the question where a case does not say one (distance)")
+    query.set_defaults(run=_run_query)
+
+
+def _add_report(commands: Any) -> None:
+    text = "Solve every pair of a scene at a ladder of accuracies; show error against run time."
+    report = commands.add_parser("report", help="error against run time of a scene", description=text)
+    report.add_argument("scene", type=Path, metavar="SCENE", help="a scene file (JSON)")
+    report.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="folder to write to (report)")
+    report.add_argument("--precision", choices=("double", "float", "both"), default="both", help="(both)")
+    report.add_argument("--jobs", type=_positive, default=None, metavar="N", help="processes for the exact truth")
+    report.add_argument("--limit", type=_positive, default=None, metavar="N", help="ask about N of the pairs only")
+    report.set_defaults(run=_run_report)
+
+
+def _positive(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
+
+
+def _run_query(chosen: argparse.Namespace) -> int:
+    if chosen.file is None:
+        return answer_lines(sys.stdin.buffer, sys.stdout, chosen.query)
+    try:
+        with open(chosen.file, "rb") as lines:
+            return answer_lines(lines, sys.stdout, chosen.query)
+    except OSError as wrong:
+        print(f"gjk query: {wrong}", file=sys.stderr)
+        return 2
+
+
+def answer_lines(lines: Iterable[bytes], out: TextIO, query: str | None = None) -> int:
+    """One line of answer for each that is not blank. Returns 1 where a line was not a JSON object, else 0."""
+    code = 0
+    for number, line in enumerate(lines, 1):
+        if not line.strip():
+            continue
+        try:
+            case = _parse(line)
+        except (ValueError, RecursionError) as wrong:
+            answer: dict[str, Any] = {"line": number, "status": "bad line", "message": str(wrong)}
+            code = 1
+        else:
+            answer = solve_case(case, query)
+        print(json.dumps(answer), file=out, flush=True)
+    return code
+
+
+def _parse(line: bytes) -> dict[str, Any]:
+    case = json.loads(line)
+    if not isinstance(case, dict):
+        raise ValueError("a case is a JSON object")
+    return case
+
+
+def _run_report(chosen: argparse.Namespace) -> int:
+    try:
+        from .report import run
+    except ImportError as missing:
+        print(f"gjk report needs {missing.name}: pip install 'gjk[report]'", file=sys.stderr)
+        return 2
+    return run(chosen.scene, chosen.out, chosen.precision, chosen.jobs, chosen.limit)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

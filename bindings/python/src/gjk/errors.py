@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+"""What an answer or a refusal is called."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from ._gjk import ffi, lib
+
+__all__ = ["BadArgument", "BadSupport", "Error", "Status"]
+
+
+class Status(IntEnum):
+    """How a query ended. From 0 up the bracket holds; below 0 the caller has erred and an `Error` is raised."""
+
+    OK = lib.GJK_OK
+    """The bracket is as tight as asked."""
+    DECIDED = lib.GJK_DECIDED
+    """Stopped early, the question being settled: a sign proven, or the cutoff passed."""
+    FLOOR = lib.GJK_FLOOR
+    """Rounding allows no more: the bracket is wider than asked, or straddles contact."""
+    LIMIT = lib.GJK_LIMIT
+    """Stopped at max_steps."""
+    BAD_ARGUMENT = lib.GJK_BAD_ARGUMENT
+    """A number that is not finite or is negative, or an argument of the wrong form."""
+    BAD_SUPPORT = lib.GJK_BAD_SUPPORT
+    """A support gave a point that is not finite, or points that contradict each other."""
+
+    @property
+    def label(self) -> str:
+        """The library's own words, such as "bad support"."""
+        text: bytes = ffi.string(lib.gjk_status_name(int(self)))
+        return text.decode("ascii")
+
+
+class Error(ValueError):
+    """The caller's mistake. `status` is the library's name for it."""
+
+    status: Status
+
+
+class BadArgument(Error):
+    """A number that is not finite or is negative, or an argument of the wrong form."""
+
+    status = Status.BAD_ARGUMENT
+
+
+class BadSupport(Error):
+    """A support gave a point that is not finite, or points that contradict each other; or a set has no points."""
+
+    status = Status.BAD_SUPPORT
+
+
+def error(status: int, message: str) -> Error:
+    """The exception that belongs to a status below 0."""
+    kind = BadSupport if status == Status.BAD_SUPPORT else BadArgument
+    return kind(message)

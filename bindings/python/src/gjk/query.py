@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: MIT
+"""The questions: how far apart, and do they meet."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Any, NamedTuple
+
+from ._gjk import ffi
+from ._native import Variant, raise_from_callback, variant
+from .errors import BadArgument, Status, error
+from .shapes import Shape
+
+__all__ = ["Cache", "Relation", "Result", "Separation", "distance", "intersect"]
+
+
+class Result(NamedTuple):
+    """An answer with its proof. Lengths are in the unit of the shapes, points and normal in their common frame."""
+
+    value: float
+    """The answer, inside the bracket."""
+    lower: float
+    """Proven: the truth is not below."""
+    upper: float
+    """Proven: the truth is not above."""
+    point_a: tuple[float, ...]
+    """A point of a. Apart, point_a and point_b are a closest pair, which realises upper; ..."""
+    point_b: tuple[float, ...]
+    """... meeting, they are one and the same point of both."""
+    normal: tuple[float, ...]
+    """Unit, from a to b, always: the direction that realises lower."""
+    status: Status
+    steps: int
+    """Steps taken. A step is one support call on each shape."""
+    supports: int
+    """Support calls, both shapes together."""
+
+
+class Relation(Enum):
+    """How two sets stand to each other."""
+
+    APART = "apart"
+    OVERLAPPING = "overlapping"
+    TOUCHING = "touching"
+    """Contact, to this precision: rounding allows no verdict on either side of it."""
+    UNDECIDED = "undecided"
+    """Stopped by max_steps before a proof was found."""
+
+
+class Separation(Result):
+    """The answer of `intersect`: a bracket of the signed separation, which is the distance of sets that are apart
+    and minus the depth of an overlap. It is only as tight as the proof needs."""
+
+    __slots__ = ()
+
+    @property
+    def relation(self) -> Relation:
+        if self.lower > 0:
+            return Relation.APART
+        if self.upper < 0:
+            return Relation.OVERLAPPING
+        return Relation.UNDECIDED if self.status is Status.LIMIT else Relation.TOUCHING
+
+
+class Cache:
+    """A warm start: where the last query of a pair ended.
+
+    Hand one cache to each query of the same pair; a query of a pair that has moved a little then needs about one
+    support call on each shape. Move the shapes with `at`, which keeps the set itself: a set built anew is another
+    set to the cache. Meeting other shapes costs time, never truth. Not for two threads at once.
+    """
+
+    __slots__ = ("_held", "_native")
+
+    def __init__(self) -> None:
+        self._native: dict[str, Any] = {}
+        self._held: dict[str, tuple[Any, ...]] = {}
+
+    def __repr__(self) -> str:
+        return f"<gjk.Cache {'warm' if self._held else 'cold'}>"
+
+    def clear(self) -> None:
+        """Forget everything: the next query starts cold."""
+        self._native.clear()
+        self._held.clear()
+
+    def _prepare(self, v: Variant, a: Shape, b: Shape) -> Any:
+        """The C struct for a variant. C compares addresses, so the shapes it may remember stay alive here."""
+        native = self._native.get(v.name)
+        if native is None:
+            native = self._native[v.name] = v.new("cache")
+        self._held[v.name] = (*self._held.get(v.name, ()), a, b)
+        return native
+
+    def _settle(self, v: Variant, a: Shape, b: Shape) -> None:
+        """After an answer C remembers this pair and no other."""
+        self._held[v.name] = (a, b)
+
+
+def distance(
+    a: Shape,
+    b: Shape,
+    *,
+    precision: str = "double",
+    cutoff: float = 0.0,
+    max_steps: int = 0,
+    abs_tol: float = 0.0,
+    rel_tol: float = 0.0,
+    slack: float = 0.0,
+    cache: Cache | None = None,
+) -> Result:
+    """How far apart are a and b? 0 where they meet.
+
+    The query stops at upper - lower <= abs_tol + rel_tol * upper; both 0, the default: as tight as rounding allows.
+    cutoff > 0: stop once the answer is proven above it (Status.DECIDED). max_steps 0: 256. slack is how far a
+    support may fall short of the farthest point, beyond its rounding; it widens the bracket.
+    precision "float" rounds the shapes to single precision and solves there: the bracket is then of the distance
+    between the rounded shapes.
+    """
+    v = variant(a.dim, precision)
+    options = (cutoff, max_steps, abs_tol, rel_tol, slack)
+    return Result._make(_ask(v, v.distance, a, b, options, cache))
+
+
+def intersect(
+    a: Shape,
+    b: Shape,
+    *,
+    precision: str = "double",
+    max_steps: int = 0,
+    slack: float = 0.0,
+    cache: Cache | None = None,
+) -> Separation:
+    """Do a and b meet? Ends at the first proof; `relation` of the answer says what was proven.
+
+    The options are those of `distance`.
+    """
+    v = variant(a.dim, precision)
+    options = (0.0, max_steps, 0.0, 0.0, slack)
+    return Separation._make(_ask(v, v.intersect, a, b, options, cache))
+
+
+_DEFAULTS = (0.0, 0, 0.0, 0.0, 0.0)
+
+
+def _ask(
+    v: Variant,
+    question: Any,
+    a: Shape,
+    b: Shape,
+    options: tuple[float, int, float, float, float],
+    cache: Cache | None,
+) -> tuple[Any, ...]:
+    """The fields of a Result, or the exception that the status means."""
+    if a.dim != b.dim:
+        raise BadArgument(f"a has {a.dim} dimensions, b has {b.dim}")
+    native_a, python_a = a._native(v)
+    native_b, python_b = b._native(v)
+    settings = ffi.NULL
+    if cache is not None or options != _DEFAULTS:
+        held = ffi.NULL if cache is None else cache._prepare(v, a, b)
+        settings = _settings(v, options, held)
+    out = ffi.new(v.result_type)
+    status = question(native_a, native_b, settings, out)
+    if python_a or python_b:
+        raise_from_callback()
+    if status < 0:
+        raise error(status, _fault(a, b, options))
+    if cache is not None:
+        cache._settle(v, a, b)
+    return (
+        out.value,
+        out.lower,
+        out.upper,
+        tuple(out.point_a),
+        tuple(out.point_b),
+        tuple(out.normal),
+        Status(status),
+        out.steps,
+        out.supports,
+    )
+
+
+def _settings(v: Variant, options: tuple[float, int, float, float, float], cache: Any) -> Any:
+    cutoff, max_steps, abs_tol, rel_tol, slack = options
+    try:
+        return ffi.new(
+            v.options_type,
+            {
+                "size": v.options_size,
+                "max_steps": max_steps,
+                "abs_tol": abs_tol,
+                "rel_tol": rel_tol,
+                "cutoff": cutoff,
+                "slack": slack,
+                "cache": cache,
+            },
+        )
+    except (TypeError, OverflowError) as wrong:
+        raise BadArgument(f"options {options}: {wrong}") from None
+
+
+def _fault(a: Shape, b: Shape, options: tuple[float, int, float, float, float]) -> str:
+    """Words for what the library has refused."""
+    for name, shape in (("a", a), ("b", b)):
+        fault = shape._fault()
+        if fault:
+            return f"{name}: {fault}"
+    if any(not 0 <= x < float("inf") for x in options):
+        return "an option is negative or not finite"
+    return "out of the range of this precision, or the supports contradict themselves"

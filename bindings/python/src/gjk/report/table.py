@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""From answers and truths to the rows of the report."""
+
+from __future__ import annotations
+
+import csv
+from fractions import Fraction
+from pathlib import Path
+from typing import NamedTuple
+
+from ..exact import APART, OVERLAPPING
+from .measure import Answer, Answers, Level
+from .scene import Pair
+from .truth import Truth
+
+__all__ = ["COLUMNS", "UNIT", "Report", "Row", "Spread", "Verdicts", "summarise", "write"]
+
+UNIT = {"double": 2.0**-53, "float": 2.0**-24}
+
+
+class Spread(NamedTuple):
+    median: float
+    p99: float
+    max: float
+
+
+class Row(NamedTuple):
+    """One level of the ladder: all pairs asked for their distance."""
+
+    level: Level
+    ns: float
+    supports: float
+    """Support calls per query, both shapes together; the mean."""
+    error: Spread
+    """|value - truth| in u * scale."""
+    width: Spread
+    """upper - lower in u * scale: the error promised."""
+    violations: int
+    """Brackets that do not hold the truth."""
+    errors: list[float]
+    widths: list[float]
+
+
+class Verdicts(NamedTuple):
+    """All pairs asked whether they meet."""
+
+    ns: float
+    supports: float
+    apart: int
+    overlapping: int
+    open: int
+    """Touching, to this precision."""
+    violations: int
+    """Verdicts against the truth."""
+
+
+class Report(NamedTuple):
+    precision: str
+    pairs: list[Pair]
+    truths: list[Truth]
+    rows: list[Row]
+    intersect: Verdicts
+
+    @property
+    def full(self) -> Row:
+        """The row of full accuracy."""
+        return next(row for row in self.rows if row.level == Level("rel_tol", 0.0))
+
+    @property
+    def violations(self) -> int:
+        return sum(row.violations for row in self.rows) + self.intersect.violations
+
+
+def summarise(precision: str, pairs: list[Pair], truths: list[Truth], answers: list[Answers]) -> Report:
+    rows = [_row(level, truths, UNIT[precision]) for level in answers if level.level.kind != "intersect"]
+    verdicts = next(_verdicts(level, truths) for level in answers if level.level.kind == "intersect")
+    return Report(precision, pairs, truths, rows, verdicts)
+
+
+def _row(level: Answers, truths: list[Truth], u: float) -> Row:
+    solved = list(zip(level.answers, truths))
+    errors = [_error(answer, truth, u) for answer, truth in solved]
+    widths = [_in_units(answer.upper - answer.lower, truth, u) for answer, truth in solved]
+    return Row(
+        level=level.level,
+        ns=level.ns,
+        supports=_mean_supports(level),
+        error=_spread(errors),
+        width=_spread(widths),
+        violations=sum(not _holds(answer, truth) for answer, truth in solved),
+        errors=errors,
+        widths=widths,
+    )
+
+
+def _verdicts(level: Answers, truths: list[Truth]) -> Verdicts:
+    apart = [answer.lower > 0 for answer in level.answers]
+    overlapping = [answer.upper < 0 for answer in level.answers]
+    wrong = sum(
+        (says_apart and truth.relation != APART) or (says_over and truth.relation != OVERLAPPING)
+        for says_apart, says_over, truth in zip(apart, overlapping, truths)
+    )
+    open_ = len(apart) - sum(apart) - sum(overlapping)
+    return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(overlapping), open_, wrong)
+
+
+def _mean_supports(level: Answers) -> float:
+    return sum(answer.supports for answer in level.answers) / len(level.answers)
+
+
+def _holds(answer: Answer, truth: Truth) -> bool:
+    return answer.lower <= truth.upper and truth.lower <= answer.upper
+
+
+def _error(answer: Answer, truth: Truth, u: float) -> float:
+    exact = (truth.lower + truth.upper) / 2
+    return _in_units(float(abs(Fraction(answer.value) - exact)), truth, u)
+
+
+def _in_units(length: float, truth: Truth, u: float) -> float:
+    return length / (u * truth.scale) if length else 0.0
+
+
+def _spread(values: list[float]) -> Spread:
+    ordered = sorted(values)
+    rank = -(-99 * len(ordered) // 100)
+    return Spread(ordered[len(ordered) // 2], ordered[rank - 1], ordered[-1])
+
+
+COLUMNS = [
+    *("precision", "query", "setting", "pairs", "ns_per_query", "supports_per_query"),
+    *("error_median", "error_p99", "error_max", "width_median", "width_p99", "width_max", "violations"),
+]
+
+
+def write(path: Path, reports: list[Report]) -> None:
+    """The rows as CSV. Errors and widths are in u * scale; intersect has neither."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        out = csv.writer(file)
+        out.writerow(COLUMNS)
+        for report in reports:
+            for row in report.rows:
+                out.writerow(_cells(report, "distance", row.level.label, row.ns, row.supports, row.violations, row))
+            v = report.intersect
+            out.writerow(_cells(report, "intersect", "first proof", v.ns, v.supports, v.violations, None))
+
+
+def _cells(
+    report: Report, query: str, setting: str, ns: float, supports: float, violations: int, row: Row | None
+) -> list[str]:
+    spreads = [f"{x:.6g}" for x in (*row.error, *row.width)] if row else [""] * 6
+    head = [report.precision, query, setting, str(len(report.pairs))]
+    return [*head, f"{ns:.1f}", f"{supports:.3f}", *spreads, str(violations)]

@@ -1,0 +1,509 @@
+# SPDX-License-Identifier: MIT
+"""The convex sets that a query can be asked about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Callable, ClassVar, TypeVar
+
+from ._gjk import ffi
+from ._native import Native, Variant, callback_handle
+from .coordinates import Numbers, PoseLike, fault_in, number, numbers, pose_numbers, rows, stretched
+from .errors import BadArgument
+
+__all__ = [
+    "Ball",
+    "Box",
+    "Capsule",
+    "Cone",
+    "Cylinder",
+    "Disc",
+    "Ellipsoid",
+    "Hull",
+    "Points",
+    "Segment",
+    "Shape",
+    "Sphere",
+    "Sum",
+    "Support",
+    "Triangle",
+]
+
+S = TypeVar("S", bound="Shape")
+
+# C walks a sum of sums by recursion; this bounds its stack.
+_DEEPEST = 100
+
+
+class Shape:
+    """A convex set: { m x + p : x in the set of its class }, grown by a ball. Immutable.
+
+    dim: 2 or 3.
+    pose: dim * (dim + 1) numbers, [m | p] by rows, or None for the identity. m may be any linear map: it may rotate,
+        scale, shear, mirror or flatten. Accepted are these numbers in a row, a 3x4 or 4x4 table (2-D: 2x3 or 3x3),
+        a couple (m, p), and dim numbers for a mere translation; lists, tuples or arrays alike.
+    radius: of the ball. It comes after the pose, which does not scale it.
+    """
+
+    __slots__ = ("__weakref__", "_natives", "_sets", "dim", "pose", "radius")
+    _sizes: ClassVar[tuple[str, ...]] = ()
+    """The arguments that make the set, in the order of the constructor."""
+    _more: ClassVar[tuple[str, ...]] = ()
+    """Further attributes that belong to the set."""
+
+    _natives: dict[str, tuple[Any, bool, Any]]
+    _sets: dict[str, Native]
+    dim: int
+    pose: tuple[float, ...] | None
+    radius: float
+
+    def __init__(self, dim: int, pose: PoseLike | None, radius: float, **sizes: Any) -> None:
+        if dim not in (2, 3) or isinstance(dim, bool):
+            raise BadArgument(f"{type(self).__name__}: {dim!r} dimensions, where 2 or 3 are expected")
+        for name, value in sizes.items():
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "dim", dim)
+        object.__setattr__(self, "pose", None if pose is None else pose_numbers(pose, dim))
+        object.__setattr__(self, "radius", number(radius, "radius"))
+        object.__setattr__(self, "_sets", {})
+        object.__setattr__(self, "_natives", {})
+
+    def at(self: S, pose: PoseLike | None) -> S:
+        """The same set at another pose, which replaces the present one. dim numbers are a translation.
+
+        The two share their data: a `Cache` stays warm from one to the other.
+        """
+        return self._with(pose=None if pose is None else pose_numbers(pose, self.dim))
+
+    def rounded(self: S, radius: float) -> S:
+        """This shape grown by a ball of that radius, on top of the radius it has."""
+        return self._with(radius=self.radius + number(radius, "radius"))
+
+    def _with(self: S, **changes: Any) -> S:
+        other = object.__new__(type(self))
+        for name in (*self._sizes, *self._more, "dim", "pose", "radius", "_sets"):
+            object.__setattr__(other, name, changes.get(name, getattr(self, name)))
+        object.__setattr__(other, "_natives", {})
+        return other
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"{type(self).__name__} is immutable; at() and rounded() give changed copies")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"{type(self).__name__} is immutable")
+
+    def _key(self) -> tuple[Any, ...]:
+        return (*(getattr(self, name) for name in self._sizes), self.dim, self.pose, self.radius)
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash((type(self).__name__, *self._key()))
+
+    def __repr__(self) -> str:
+        words = [repr(getattr(self, name)) for name in self._sizes]
+        words += [f"{name}={value!r}" for name, value in self._keywords().items()]
+        return f"{type(self).__name__}({', '.join(words)})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (type(self), tuple(getattr(self, name) for name in self._sizes), self._keywords())
+
+    def _keywords(self) -> dict[str, Any]:
+        """The arguments by keyword that are not at their default."""
+        words: dict[str, Any] = {}
+        if self.pose is not None:
+            words["pose"] = self.pose
+        if self.radius:
+            words["radius"] = self.radius
+        return words
+
+    def _native(self, v: Variant) -> tuple[Any, bool]:
+        """The shape as a C struct, which lives as long as this object; and whether it calls back into Python."""
+        found = self._natives.get(v.name)
+        if found is None:
+            found = self._make_native(v)
+            self._natives[v.name] = found
+        return found[0], found[1]
+
+    def _make_native(self, v: Variant) -> tuple[Any, bool, Any]:
+        dim = self.dim
+        native = self._sets.get(v.name)
+        if native is None:
+            native = self._sets[v.name] = self._set(v)
+        pose, numbers = ffi.NULL, self._whole_pose(v)
+        if numbers is not None:
+            m = [c for i, c in enumerate(numbers) if i % (dim + 1) < dim]
+            pose = v.new("pose", {"m": m, "p": numbers[dim :: dim + 1]})
+        fields = {"support": native.support, "data": native.data, "pose": pose, "radius": self.radius}
+        return v.new("shape", fields), native.python, (pose, native)
+
+    def _whole_pose(self, v: Variant) -> tuple[float, ...] | None:
+        return self.pose
+
+    def _set(self, v: Variant) -> Native:
+        """The support and the data of the set without pose and radius."""
+        raise NotImplementedError
+
+    def _fault(self) -> str:
+        """The first number that no set can have, in words; "" where there is none."""
+        own = fault_in("pose", self.pose or ()) or fault_in("radius", [self.radius], sign=True)
+        return own.replace("radius[0]", "radius") or self._set_fault()
+
+    def _set_fault(self) -> str:
+        return ""
+
+
+def _rebuild(kind: type[Shape], sizes: tuple[Any, ...], keywords: dict[str, Any]) -> Shape:
+    return kind(*sizes, **keywords)
+
+
+def _ready(v: Variant, support: str, struct: str, fields: dict[str, Any], *keep: Any) -> Native:
+    """One of the library's ready-made supports."""
+    data = v.new(struct, fields)
+    return Native(v.address(support), data, (data, *keep), False)
+
+
+class Points(Shape):
+    """The convex hull of points, each of dim coordinates. dim is needed only where there are none."""
+
+    __slots__ = ("points",)
+    _sizes = ("points",)
+    points: tuple[tuple[float, ...], ...]
+
+    def __init__(
+        self,
+        points: Iterable[Numbers],
+        *,
+        dim: int | None = None,
+        pose: PoseLike | None = None,
+        radius: float = 0.0,
+    ) -> None:
+        table = rows(points, "points")
+        if not table and dim is None:
+            raise BadArgument("Points: no points, and no dim to tell the dimension")
+        if table and dim not in (None, len(table[0])):
+            raise BadArgument(f"Points: {len(table[0])} coordinates in {dim}-D")
+        super().__init__(len(table[0]) if table else int(dim or 0), pose, radius, points=table)
+
+    def _keywords(self) -> dict[str, Any]:
+        words = super()._keywords()
+        return words if self.points else {"dim": self.dim, **words}
+
+    def _set(self, v: Variant) -> Native:
+        flat = v.reals([c for point in self.points for c in point] or [0.0])
+        data = v.new("points", {"v": flat, "count": len(self.points)})
+        reach = v.function("points_reach")(data)
+        data.reach = reach if reach >= 0 else 0.0  # NaN: the query is to say what is wrong
+        return Native(v.address("support_points"), data, (data, flat), False)
+
+    def _set_fault(self) -> str:
+        if not self.points:
+            return "no points"
+        faults = (fault_in(f"points[{i}]", point) for i, point in enumerate(self.points))
+        return next((fault for fault in faults if fault), "")
+
+
+class Box(Shape):
+    """|x_i| <= half[i]. Two half sides make a rectangle, three a box."""
+
+    __slots__ = ("half",)
+    _sizes = ("half",)
+    half: tuple[float, ...]
+
+    def __init__(self, half: Numbers, *, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        sides = numbers(half, "half")
+        super().__init__(len(sides), pose, radius, half=sides)
+
+    def _set(self, v: Variant) -> Native:
+        return _ready(v, "support_box", "box", {"half": self.half})
+
+    def _set_fault(self) -> str:
+        return fault_in("half", self.half, sign=True)
+
+
+class Segment(Shape):
+    """From v[0] to v[1]."""
+
+    __slots__ = ("v",)
+    _sizes = ("v",)
+    v: tuple[tuple[float, ...], ...]
+
+    def __init__(self, v: Iterable[Numbers], *, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        ends = _corners(v, 2, "Segment")
+        super().__init__(len(ends[0]), pose, radius, v=ends)
+
+    def _set(self, v: Variant) -> Native:
+        return _ready(v, "support_segment", "segment", {"v": self.v})
+
+    def _set_fault(self) -> str:
+        return fault_in("v[0]", self.v[0]) or fault_in("v[1]", self.v[1])
+
+
+class Triangle(Shape):
+    """With the corners v[0], v[1] and v[2]. A triangle in 2-D is three Points to the library."""
+
+    __slots__ = ("v",)
+    _sizes = ("v",)
+    v: tuple[tuple[float, ...], ...]
+
+    def __init__(self, v: Iterable[Numbers], *, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        corners = _corners(v, 3, "Triangle")
+        super().__init__(len(corners[0]), pose, radius, v=corners)
+
+    def _set(self, v: Variant) -> Native:
+        if self.dim == 2:
+            return Points(self.v)._set(v)
+        return _ready(v, "support_triangle", "triangle", {"v": self.v})
+
+    def _set_fault(self) -> str:
+        faults = (fault_in(f"v[{i}]", corner) for i, corner in enumerate(self.v))
+        return next((fault for fault in faults if fault), "")
+
+
+def _corners(v: Iterable[Numbers], count: int, kind: str) -> tuple[tuple[float, ...], ...]:
+    corners = rows(v, "v")
+    if len(corners) != count:
+        raise BadArgument(f"{kind}: {count} points expected, not {len(corners)}")
+    return corners
+
+
+class Sphere(Shape):
+    """A ball (2-D: a disc) as the library likes it best: one point with a radius. No pose scales it; see `Ball`."""
+
+    __slots__ = ()
+    _sizes = ("radius",)
+
+    def __init__(self, radius: float, *, dim: int = 3, pose: PoseLike | None = None) -> None:
+        super().__init__(dim, pose, radius)
+
+    def _keywords(self) -> dict[str, Any]:
+        return _without_radius(super()._keywords(), self.dim)
+
+    def _set(self, v: Variant) -> Native:
+        return Native(v.address("support_origin"), ffi.NULL, (), False)
+
+
+class Capsule(Shape):
+    """The points within radius of the segment from -half_length to +half_length on the last axis: y in 2-D, z in 3-D.
+
+    A pose acts on the segment and does not scale the radius.
+    """
+
+    __slots__ = ("half_length",)
+    _sizes = ("radius", "half_length")
+    half_length: float
+
+    def __init__(self, radius: float, half_length: float, *, dim: int = 3, pose: PoseLike | None = None) -> None:
+        super().__init__(dim, pose, radius, half_length=number(half_length, "half_length"))
+
+    def _keywords(self) -> dict[str, Any]:
+        return _without_radius(super()._keywords(), self.dim)
+
+    def _set(self, v: Variant) -> Native:
+        # A negative length would pass for a segment turned round: NaN lets the library refuse it.
+        z = self.half_length if self.half_length >= 0 else float("nan")
+        axis = [0.0] * (self.dim - 1)
+        return _ready(v, "support_segment", "segment", {"v": ((*axis, -z), (*axis, z))})
+
+    def _set_fault(self) -> str:
+        return fault_in("half_length", [self.half_length], sign=True).replace("[0]", "")
+
+
+def _without_radius(words: dict[str, Any], dim: int) -> dict[str, Any]:
+    words.pop("radius", None)
+    return words if dim == 3 else {"dim": dim, **words}
+
+
+class Ball(Shape):
+    """|x| <= r. Under a pose that stretches it is an ellipsoid; where none does, `Sphere` is cheaper."""
+
+    __slots__ = ("r",)
+    _sizes = ("r",)
+    r: float
+
+    def __init__(self, r: float, *, dim: int = 3, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        super().__init__(dim, pose, radius, r=number(r, "r"))
+
+    def _keywords(self) -> dict[str, Any]:
+        words = super()._keywords()
+        return words if self.dim == 3 else {"dim": self.dim, **words}
+
+    def _set(self, v: Variant) -> Native:
+        return _ready(v, "support_ball", "ball", {"radius": self.r})
+
+    def _set_fault(self) -> str:
+        return fault_in("r", [self.r], sign=True).replace("[0]", "")
+
+
+class Ellipsoid(Shape):
+    """With half axes radii[i] along the coordinate axes, before its pose. Two of them make an ellipse.
+
+    To the library it is a ball of radius 1 under the pose whose columns are multiplied by the radii. That product
+    rounds once, well within what the bracket allows a support.
+    """
+
+    __slots__ = ("radii",)
+    _sizes = ("radii",)
+    radii: tuple[float, ...]
+
+    def __init__(self, radii: Numbers, *, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        axes = numbers(radii, "radii")
+        super().__init__(len(axes), pose, radius, radii=axes)
+
+    def _whole_pose(self, v: Variant) -> tuple[float, ...]:
+        pose = self.pose or pose_numbers([0.0] * self.dim, self.dim)
+        return stretched(v.rounded(pose), v.rounded(self.radii))
+
+    def _set(self, v: Variant) -> Native:
+        # A negative half axis would pass for a mirrored one: NaN lets the library refuse it.
+        return _ready(v, "support_ball", "ball", {"radius": 1.0 if min(self.radii) >= 0 else float("nan")})
+
+    def _set_fault(self) -> str:
+        return fault_in("radii", self.radii, sign=True)
+
+
+class _Round(Shape):
+    """A solid of revolution about z."""
+
+    __slots__ = ("half_length", "r")
+    _sizes = ("r", "half_length")
+    r: float
+    half_length: float
+
+    def __init__(self, r: float, half_length: float, *, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        sizes = {"r": number(r, "r"), "half_length": number(half_length, "half_length")}
+        super().__init__(3, pose, radius, **sizes)
+
+    def _set_fault(self) -> str:
+        fault = fault_in("r", [self.r], sign=True) or fault_in("half_length", [self.half_length], sign=True)
+        return fault.replace("[0]", "")
+
+
+class Cylinder(_Round):
+    """x^2 + y^2 <= r^2, |z| <= half_length. 3-D only."""
+
+    __slots__ = ()
+
+    def _set(self, v: Variant) -> Native:
+        return _ready(v, "support_cylinder", "cylinder", {"radius": self.r, "half_length": self.half_length})
+
+
+class Cone(_Round):
+    """The hull of the apex (0, 0, half_length) and the disc of radius r at z = -half_length. 3-D only."""
+
+    __slots__ = ()
+
+    def _set(self, v: Variant) -> Native:
+        return _ready(v, "support_cone", "cone", {"radius": self.r, "half_length": self.half_length})
+
+
+class Disc(Shape):
+    """x^2 + y^2 <= r^2, z = 0. 3-D only; a disc in 2-D is a `Sphere`."""
+
+    __slots__ = ("r",)
+    _sizes = ("r",)
+    r: float
+
+    def __init__(self, r: float, *, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        super().__init__(3, pose, radius, r=number(r, "r"))
+
+    def _set(self, v: Variant) -> Native:
+        return _ready(v, "support_disc", "disc", {"radius": self.r})
+
+    def _set_fault(self) -> str:
+        return fault_in("r", [self.r], sign=True).replace("[0]", "")
+
+
+class _Couple(Shape):
+    """Two shapes as one, poses and radii included."""
+
+    __slots__ = ("_depth", "a", "b")
+    _sizes = ("a", "b")
+    _more = ("_depth",)
+    _support: ClassVar[str]
+    a: Shape
+    b: Shape
+
+    def __init__(self, a: Shape, b: Shape, *, pose: PoseLike | None = None, radius: float = 0.0) -> None:
+        if not isinstance(a, Shape) or not isinstance(b, Shape):
+            raise BadArgument(f"{type(self).__name__} is made of two shapes")
+        if a.dim != b.dim:
+            raise BadArgument(f"{type(self).__name__}: a has {a.dim} dimensions, b has {b.dim}")
+        depth = 1 + max(getattr(a, "_depth", 0), getattr(b, "_depth", 0))
+        if depth > _DEEPEST:
+            raise BadArgument(f"{type(self).__name__}: sums and hulls nested deeper than {_DEEPEST}")
+        super().__init__(a.dim, pose, radius, a=a, b=b, _depth=depth)
+
+    def _set(self, v: Variant) -> Native:
+        (a, python_a), (b, python_b) = self.a._native(v), self.b._native(v)
+        data = v.new("couple", {"a": a[0], "b": b[0]})
+        return Native(v.address(self._support), data, (data, a, b, self.a, self.b), python_a or python_b)
+
+    def _set_fault(self) -> str:
+        for name, member in (("a", self.a), ("b", self.b)):
+            fault = member._fault()
+            if fault:
+                return f"{name}: {fault}"
+        return ""
+
+
+class Sum(_Couple):
+    """{ x + y : x in a, y in b }, the Minkowski sum."""
+
+    __slots__ = ()
+    _support = "support_sum"
+
+
+class Hull(_Couple):
+    """The convex hull of a and b together."""
+
+    __slots__ = ()
+    _support = "support_hull"
+
+
+class Support(Shape):
+    """A convex set of your own, told by a function: it takes a direction, a tuple of dim floats that is not zero and
+    not unit, and returns a point of the set that lies farthest along it.
+
+    Equal directions must give equal points. The function may fall short of the farthest point by 8 units of roundoff
+    times the reach of the set; what falls shorter is declared in the option slack of the query.
+    reach: no point of the set lies farther than this from its own origin; a bound will do. Unless it is given, each
+    query spends a few more calls to find one. What the function raises comes out of the query.
+    """
+
+    __slots__ = ("function", "reach")
+    _sizes = ("function",)
+    _more = ("reach",)
+    function: Callable[[tuple[float, ...]], Numbers]
+    reach: float | None
+
+    def __init__(
+        self,
+        function: Callable[[tuple[float, ...]], Numbers],
+        dim: int = 3,
+        reach: float | None = None,
+        *,
+        pose: PoseLike | None = None,
+        radius: float = 0.0,
+    ) -> None:
+        if not callable(function):
+            raise BadArgument(f"Support: {function!r} is not a function")
+        bound = None if reach is None else number(reach, "reach")
+        super().__init__(dim, pose, radius, function=function, reach=bound)
+
+    def _key(self) -> tuple[Any, ...]:
+        return (*super()._key(), self.reach)
+
+    def _keywords(self) -> dict[str, Any]:
+        words = {} if self.reach is None else {"reach": self.reach}
+        return {"dim": self.dim, **words, **super()._keywords()}
+
+    def _set(self, v: Variant) -> Native:
+        handle = callback_handle(self.function, self.dim, self.reach or 0.0)
+        return Native(v.address("python_support"), handle, (handle,), True)
+
+    def _set_fault(self) -> str:
+        return fault_in("reach", [self.reach or 0.0], sign=True).replace("[0]", "")

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""Numbers that no set can have are refused by name, in both precisions, never answered."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import gjk
+
+NAN, INF = math.nan, math.inf
+POSE = (1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0)
+precisions = pytest.mark.parametrize("precision", ["double", "float"])
+
+
+def broken_pose(bad):
+    return [bad if i == 5 else c for i, c in enumerate(POSE)]
+
+
+BAD = [
+    (gjk.BadArgument, r"pose\[5\] is nan", lambda: gjk.Box((1, 1, 1), pose=broken_pose(NAN))),
+    (gjk.BadArgument, r"pose\[5\] is inf", lambda: gjk.Sphere(1, pose=broken_pose(INF))),
+    (gjk.BadArgument, r"radius is nan", lambda: gjk.Box((1, 1, 1), radius=NAN)),
+    (gjk.BadArgument, r"radius is inf", lambda: gjk.Sphere(INF)),
+    (gjk.BadArgument, r"radius is -1", lambda: gjk.Capsule(-1, 1)),
+    (gjk.BadSupport, r"half\[1\] is -2", lambda: gjk.Box((1, -2, 1))),
+    (gjk.BadSupport, r"half\[2\] is nan", lambda: gjk.Box((1, 1, NAN))),
+    (gjk.BadSupport, r"half_length is -1", lambda: gjk.Capsule(1, -1)),
+    (gjk.BadSupport, r"half_length is inf", lambda: gjk.Capsule(1, INF)),
+    (gjk.BadSupport, r"r is -1", lambda: gjk.Ball(-1)),
+    (gjk.BadSupport, r"r is nan", lambda: gjk.Disc(NAN)),
+    (gjk.BadSupport, r"r is inf", lambda: gjk.Cylinder(INF, 1)),
+    (gjk.BadSupport, r"half_length is -1", lambda: gjk.Cone(1, -1)),
+    (gjk.Error, r"radii\[0\] is -1", lambda: gjk.Ellipsoid((-1, 1, 1))),
+    (gjk.Error, r"radii\[1\] is nan", lambda: gjk.Ellipsoid((1, NAN, 1))),
+    (gjk.BadSupport, r"no points", lambda: gjk.Points([], dim=3)),
+    (gjk.BadSupport, r"points\[1\]\[0\] is nan", lambda: gjk.Points([(0, 0, 0), (NAN, 0, 0)])),
+    (gjk.BadSupport, r"points\[0\]\[2\] is -inf", lambda: gjk.Points([(0, 0, -INF), (0, 0, 0)])),
+    (gjk.BadSupport, r"v\[1\]\[1\] is nan", lambda: gjk.Segment([(0, 0, 0), (1, NAN, 1)])),
+    (gjk.BadSupport, r"v\[2\]\[0\] is inf", lambda: gjk.Triangle([(0, 0, 0), (1, 1, 1), (INF, 0, 0)])),
+    (gjk.Error, r"b: half\[0\] is -1", lambda: gjk.Sum(gjk.Sphere(1), gjk.Box((-1, 1, 1)))),
+    (gjk.Error, r"a: r is nan", lambda: gjk.Hull(gjk.Ball(NAN), gjk.Sphere(1))),
+]
+
+
+@precisions
+@pytest.mark.parametrize(("kind", "words", "make"), BAD, ids=[words for _, words, _ in BAD])
+def test_bad_shapes(precision, kind, words, make):
+    good = gjk.Box((1, 1, 1), pose=POSE)
+    for ask in (gjk.distance, gjk.intersect):
+        with pytest.raises(kind, match=words) as wrong:
+            ask(make(), good, precision=precision)
+        assert wrong.value.status < 0
+        with pytest.raises(kind, match=f"^b: .*{words}"):
+            ask(good, make(), precision=precision)
+
+
+@precisions
+@pytest.mark.parametrize("option", ["cutoff", "abs_tol", "rel_tol", "slack"])
+@pytest.mark.parametrize("number", [NAN, -INF, -1.0, "1", None])
+def test_bad_options(precision, option, number):
+    with pytest.raises(gjk.BadArgument, match="option"):
+        gjk.distance(gjk.Sphere(1), gjk.Sphere(1), precision=precision, **{option: number})
+
+
+@precisions
+def test_infinite_options(precision):
+    """Any width will do, or any answer is below: legal. An infinite slack would prove nothing: refused."""
+    a, b = gjk.Sphere(1), gjk.Sphere(1).at((5, 0, 0))
+    for option in ("cutoff", "abs_tol", "rel_tol"):
+        result = gjk.distance(a, b, precision=precision, **{option: INF})
+        assert result.lower <= 3 <= result.upper
+    with pytest.raises(gjk.BadArgument, match="option"):
+        gjk.distance(a, b, precision=precision, slack=INF)
+
+
+@pytest.mark.parametrize("steps", [-1, 2**32, 1.5, "3"])
+def test_bad_step_limits(steps):
+    with pytest.raises(gjk.BadArgument, match="option"):
+        gjk.distance(gjk.Sphere(1), gjk.Sphere(1), max_steps=steps)
+
+
+@pytest.mark.parametrize("precision", ["half", None, 2, []])
+def test_bad_precision(precision):
+    with pytest.raises(gjk.BadArgument, match="precision"):
+        gjk.distance(gjk.Sphere(1), gjk.Sphere(1), precision=precision)
+
+
+def test_dimensions_must_agree():
+    with pytest.raises(gjk.BadArgument, match="dimensions"):
+        gjk.distance(gjk.Sphere(1), gjk.Sphere(1, dim=2))
+
+
+def test_what_overflows_a_float_is_refused_there_alone():
+    box = gjk.Box((1e300, 1, 1))
+    result = gjk.distance(box, gjk.Sphere(1).at((0, 5, 0)))
+    assert result.lower <= 3 <= result.upper
+    with pytest.raises(gjk.Error, match="range"):
+        gjk.distance(box, gjk.Sphere(1), precision="float")
+
+
+def test_flat_poses_are_legal():
+    flat = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 3)
+    assert gjk.distance(gjk.Box((1, 1, 1), pose=flat), gjk.Box((1, 1, 1))).value == 2
+    assert gjk.distance(gjk.Box((1, 1, 1), pose=[0] * 12), gjk.Sphere(1).at((0, 0, 3))).value == 2

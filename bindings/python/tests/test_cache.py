@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""Warm starts."""
+
+from __future__ import annotations
+
+import pytest
+
+import gjk
+
+precisions = pytest.mark.parametrize("precision", ["double", "float"])
+TURN = [0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6]
+
+
+def at(x):
+    return [c for i in range(3) for c in (*TURN[3 * i : 3 * i + 3], x if i == 0 else 0.5)]
+
+
+@precisions
+def test_a_warm_query_needs_fewer_calls(precision):
+    a, b, cache = gjk.Box((1, 1, 1)), gjk.Box((0.5, 0.7, 0.9)), gjk.Cache()
+    warm = [gjk.distance(a, b.at(at(4 + i / 1000)), precision=precision, cache=cache).supports for i in range(20)]
+    cold = gjk.distance(a, b.at(at(4)), precision=precision).supports
+    assert warm[0] == cold
+    assert max(warm[1:]) <= 4 < cold
+    cache.clear()
+    assert gjk.distance(a, b.at(at(4)), precision=precision, cache=cache).supports == cold
+
+
+@precisions
+def test_other_shapes_cost_time_never_truth(precision):
+    cache, a = gjk.Cache(), gjk.Box((1, 1, 1))
+    for i in range(200):
+        b = gjk.Box((0.5, 0.5 + i % 7, 0.5)).at(at(6.0 + i % 3))
+        hot, cold = gjk.distance(a, b, precision=precision, cache=cache), gjk.distance(a, b, precision=precision)
+        assert hot.lower <= cold.upper
+        assert cold.lower <= hot.upper
+        del b  # its address may come back with the next
+
+
+def test_the_cache_keeps_alive_what_it_remembers():
+    """Also what it may remember from before a query that was refused."""
+    cache, a = gjk.Cache(), gjk.Sphere(1)
+    first = gjk.Box((1, 1, 1)).at((5, 0, 0))
+    gjk.distance(a, first, cache=cache)
+    with pytest.raises(gjk.BadSupport):
+        gjk.distance(a, gjk.Box((1, -1, 1)), cache=cache)
+    assert any(held is first for held in cache._held["gjk3"])
+    second = gjk.Box((2, 1, 1)).at((5, 0, 0))
+    gjk.distance(a, second, cache=cache)
+    assert cache._held["gjk3"] == (a, second)
+
+
+def test_one_cache_for_all_variants():
+    cache = gjk.Cache()
+    assert repr(cache) == "<gjk.Cache cold>"
+    for precision in ("double", "float"):
+        for dim in (2, 3):
+            a, b = gjk.Sphere(1, dim=dim), gjk.Sphere(1, dim=dim).at([4.0] + [0.0] * (dim - 1))
+            for _ in range(2):
+                assert gjk.distance(a, b, precision=precision, cache=cache).value == 2
+                assert gjk.intersect(a, b, precision=precision, cache=cache).relation is gjk.Relation.APART
+    assert repr(cache) == "<gjk.Cache warm>"

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""The command gjk query."""
+
+from __future__ import annotations
+
+import io
+import json
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pairs import pairs, prepared
+
+import gjk
+from gjk.cli import answer_lines, main
+
+BOX = {"shape": "box", "half": [1, 1, 1]}
+BALL = {"shape": "sphere", "r": 0.5, "pose": [1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 1, 0]}
+CASE = {"id": "one", "dim": 3, "a": BOX, "b": BALL}
+
+
+def ask(*lines, query=None):
+    """The answers to these lines and the exit code."""
+    text = "\n".join(line if isinstance(line, str) else json.dumps(line) for line in lines)
+    out = io.StringIO()
+    code = answer_lines(io.BytesIO(text.encode()), out, query)
+    return [json.loads(line) for line in out.getvalue().splitlines()], code
+
+
+def test_an_answer():
+    (answer,), code = ask(CASE)
+    fields = ["id", "value", "lower", "upper", "point_a", "point_b", "normal", "status", "steps", "supports"]
+    assert code == 0
+    assert list(answer) == [*fields, "intersect"]
+    assert answer["id"] == "one"
+    assert answer["status"] == "ok"
+    assert answer["lower"] <= 2.5 <= answer["upper"]
+    assert answer["intersect"] is False
+    assert answer["point_a"] == [1, 0, 0]
+    assert answer["normal"] == [1, 0, 0]
+
+
+def test_a_question_for_cases_without_one():
+    meeting = {**CASE, "b": {**BALL, "pose": None}}
+    answers, _ = ask(CASE, meeting, {**CASE, "query": "distance"}, {**meeting, "query": "distance"}, query="intersect")
+    assert [answer["intersect"] for answer in answers] == [False, True, False, True]
+    assert answers[0]["status"] == "decided"
+    assert answers[2]["status"] == "ok"
+    assert answers[1]["upper"] < 0 == answers[3]["lower"]
+
+
+def test_touching_is_neither():
+    touching = {**CASE, "b": {"shape": "box", "half": [1, 1, 1], "pose": [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]}}
+    (answer,), _ = ask({**touching, "query": "intersect"})
+    assert answer["status"] == "floor"
+    assert answer["lower"] <= 0 <= answer["upper"]
+    assert "intersect" not in answer
+
+
+def test_options_and_precision():
+    cases = [
+        {**CASE, "options": {"max_steps": 1, "unknown": 7}},
+        {**CASE, "options": {"cutoff": 1}},
+        {**CASE, "precision": "float"},
+    ]
+    answers, code = ask(*cases)
+    assert code == 0
+    assert answers[0]["steps"] == 1
+    assert answers[1]["status"] == "decided"
+    assert answers[2]["upper"] - answers[2]["lower"] > 1e-9
+
+
+@given(pair=pairs(), precision=st.sampled_from(["double", "float"]))
+def test_cases_of_every_shape(pair, precision):
+    dim, a, b = pair
+    (answer,), code = ask({"dim": dim, "precision": precision, "a": a, "b": b})
+    _, _, truth = prepared(pair, precision)
+    assert code == 0
+    assert answer["lower"] <= truth.upper
+    assert truth.lower <= answer["upper"]
+
+
+@pytest.mark.parametrize(
+    ("change", "status", "words"),
+    [
+        ({"a": {"shape": "box", "half": [1, "NaN", 1]}}, "bad argument", "half"),
+        ({"a": {"shape": "box", "half": [1, float("nan"), 1]}}, "bad support", "half[1] is nan"),
+        ({"a": {"shape": "sphere", "r": float("inf")}}, "bad argument", "radius is inf"),
+        ({"a": {"shape": "sphere", "r": -1}}, "bad argument", "radius is -1"),
+        ({"a": {"shape": "points", "points": []}}, "bad support", "no points"),
+        ({"a": {"shape": "points", "points": [[1, 2]]}}, "bad argument", "2"),
+        ({"a": {"shape": "points", "points": 5}}, "bad argument", "points"),
+        ({"a": {"shape": "torus"}}, "bad argument", "torus"),
+        ({"a": {"shape": ["box"]}}, "bad argument", "box"),
+        ({"a": {"shape": "box"}}, "bad argument", "without 'half'"),
+        ({"a": [1, 2]}, "bad argument", "object"),
+        ({"a": None}, "bad argument", "object"),
+        ({"a": {**BOX, "pose": [1, 2]}}, "bad argument", "pose"),
+        ({"a": {**BOX, "radius": "big"}}, "bad argument", "radius"),
+        ({"a": {"shape": "sum", "a": BOX}}, "bad argument", "without 'b'"),
+        ({"dim": 4}, "bad argument", "dim"),
+        ({"dim": 2}, "bad argument", "2-D"),
+        ({"dim": "3"}, "bad argument", "dim"),
+        ({"precision": "half"}, "bad argument", "precision"),
+        ({"precision": []}, "bad argument", "precision"),
+        ({"options": {"max_steps": 0.5}}, "bad argument", "options"),
+        ({"options": {"rel_tol": float("nan")}}, "bad argument", "option"),
+        ({"options": 3}, "bad argument", "options"),
+        ({"query": "penetration"}, "unsupported query", "penetration"),
+        ({"query": "cast"}, "unsupported query", "cast"),
+        ({"query": ["toi"]}, "unsupported query", "toi"),
+    ],
+)
+def test_bad_cases_are_answered_by_name(change, status, words):
+    (answer, good), code = ask({**CASE, **change}, CASE)
+    assert code == 0
+    assert answer["id"] == "one"
+    assert answer["status"] == status
+    assert words in answer["message"]
+    assert "value" not in answer
+    assert good["status"] == "ok"
+
+
+def test_a_case_without_shapes():
+    answers, _ = ask({}, {"a": BOX}, {"id": [1, {}], "a": BOX, "b": BALL})
+    assert [answer["status"] for answer in answers] == ["bad argument", "bad argument", "ok"]
+    assert answers[2]["id"] == [1, {}]
+
+
+@pytest.mark.parametrize("bad", ["{", "[1, 2]", "7", "null", '{"a": }', "\x00", "[" * 100_000, '"' + "x" * 10])
+def test_a_bad_line_does_not_stop_the_others(bad):
+    answers, code = ask(CASE, "", bad, CASE)
+    assert code == 1
+    assert [answer["status"] for answer in answers] == ["ok", "bad line", "ok"]
+    assert answers[1]["line"] == 3
+    assert answers[1]["message"]
+
+
+def test_bytes_that_are_no_text():
+    out = io.StringIO()
+    assert answer_lines(io.BytesIO(b'{"id": "\xff\xfe"}\n'), out) == 1
+    assert json.loads(out.getvalue())["status"] == "bad line"
+
+
+def test_shapes_nested_too_deep():
+    shape: dict = BOX
+    for _ in range(150):
+        shape = {"shape": "sum", "a": shape, "b": BOX}
+    (answer,), _ = ask({**CASE, "a": shape})
+    assert answer["status"] == "bad argument"
+
+
+CASES = Path(__file__).parents[3] / "tests/cases"
+
+
+@pytest.mark.parametrize("name", ["gjk2", "gjk2f", "gjk3", "gjk3f", "museum"])
+def test_the_cases_that_all_tests_share(name):
+    cases = [json.loads(line) for line in (CASES / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()]
+    distances, code = ask(*({**case, "query": "distance"} for case in cases))
+    verdicts, _ = ask(*({**case, "query": "intersect"} for case in cases))
+    assert code == 0
+    assert len(distances) == len(verdicts) == len(cases) > 100
+    wrong = [case["id"] for case, *answers in zip(cases, distances, verdicts) if not agrees(case["expect"], *answers)]
+    assert wrong == []
+
+
+def agrees(expect, distance, verdict):
+    """Whether both answers are what the truth allows."""
+    lower, upper = Fraction(expect["distance_lower"]), Fraction(expect["distance_upper"])
+    holds = distance["lower"] <= upper and lower <= distance["upper"]
+    says = {False: "apart", True: "overlapping"}.get(verdict.get("intersect"))
+    return holds and (says in (None, expect["relation"]) or expect.get("proven") is False)
+
+
+def test_the_command(tmp_path):
+    command = [sys.executable, "-m", "gjk"]
+    done = subprocess.run([*command, "query"], input=json.dumps(CASE) + "\n{\n", capture_output=True, text=True)
+    assert done.returncode == 1
+    assert [json.loads(line)["status"] for line in done.stdout.splitlines()] == ["ok", "bad line"]
+    assert done.stderr == ""
+    file = tmp_path / "cases.jsonl"
+    file.write_text(json.dumps(CASE))
+    done = subprocess.run([*command, "query", "--query", "intersect", str(file)], capture_output=True, text=True)
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["intersect"] is False
+    done = subprocess.run([*command, "--version"], capture_output=True, text=True)
+    assert done.stdout == f"gjk {gjk.__version__}\n"
+
+
+def test_a_file_that_is_not_there(capsys):
+    assert main(["query", "/no/such/file"]) == 2
+    assert "no/such/file" in capsys.readouterr().err
+
+
+def test_a_reader_that_leaves():
+    """head -1 closes the pipe: no traceback."""
+    script = f"import json; [print(json.dumps({CASE!r})) for _ in range(20000)]"
+    pipe = f"{sys.executable} -c '{script.replace(chr(39), chr(34))}' | {sys.executable} -m gjk query | head -1"
+    done = subprocess.run(["sh", "-c", pipe], capture_output=True, text=True)
+    assert json.loads(done.stdout)["status"] == "ok"
+    assert "gjk" not in done.stderr

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: MIT
+"""The command gjk report, on a scene small enough for a test."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from gjk import Box, distance
+from gjk.cli import main
+from gjk.exact import APART, OVERLAPPING, TOUCHING
+from gjk.report import measure, table, truth
+from gjk.report.scene import Pair, SceneError, load
+
+TURN = [0.36, 0.48, -0.8, 2, -0.8, 0.6, 0, 2.5, 0.48, 0.64, 0.6, 2]
+SCENE = {
+    "name": "tiny & <small>",
+    "dim": 3,
+    "shapes": {
+        "box": {"shape": "box", "half": [1, 0.5, 0.25]},
+        "ball": {"shape": "sphere", "r": 0.3},
+        "lemon": {"shape": "ellipsoid", "radii": [0.1, 0.2, 0.7]},
+    },
+    "bodies": [
+        {"name": "floor", "shape": "box"},
+        {"name": "turned", "shape": "box", "pose": TURN},
+        {"name": "ball", "shape": "ball", "pose": [1, 0, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0]},
+        {"name": "lemon", "shape": "lemon", "pose": [1, 0, 0, -3, 0, 1, 0, 1, 0, 0, 1, 1]},
+        {"name": "rod", "shape": {"shape": "capsule", "r": 0.1, "half_length": 1}, "pose": TURN},
+    ],
+    "pairs": "all",
+}
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(SCENE))
+    return path
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    monkeypatch.setattr(measure, "BUDGET", 1e6)
+
+
+class Page(HTMLParser):
+    """Which elements a page has, whether they close, and what it loads."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.count, self.loads = [], {}, []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.count[tag] = self.count.get(tag, 0) + 1
+        if tag not in ("meta", "link", "img", "br"):
+            self.open.append(tag)
+        self.loads += [value for name, value in attributes if name in ("src", "href", "xlink:href")]
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        self.handle_endtag(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def test_the_report_of_a_tiny_scene(scene, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert main(["report", str(scene), "--out", str(out), "--jobs", "1"]) == 0
+    printed = capsys.readouterr()
+    assert "hold the truth" in printed.out
+    assert "exact truth" in printed.err
+    check_rows(list(csv.DictReader((out / "report.csv").read_text(encoding="utf-8").splitlines())))
+    check_page((out / "report.html").read_text(encoding="utf-8"))
+
+
+def check_rows(rows):
+    levels = {precision: len(measure.ladder(precision)) for precision in ("double", "float")}
+    assert list(rows[0]) == table.COLUMNS
+    for precision, count in levels.items():
+        mine = [row for row in rows if row["precision"] == precision]
+        assert len(mine) == count
+        for row in mine:
+            assert row["pairs"] == "10"
+            assert row["violations"] == "0"
+            assert float(row["ns_per_query"]) > 0
+            assert float(row["supports_per_query"]) >= 2
+        full = next(row for row in mine if row["setting"] == "full")
+        one = next(row for row in mine if row["setting"] == "1 steps")
+        assert 0 < float(full["error_max"]) < 100
+        assert float(full["error_max"]) <= float(full["width_max"]) < 1000
+        assert float(one["width_max"]) > 1e3
+        assert float(one["supports_per_query"]) < float(full["supports_per_query"])
+
+
+def check_page(text):
+    page = Page(text)
+    assert page.open == []
+    assert page.count["svg"] == 6
+    assert page.count["table"] == 2
+    assert "script" not in page.count
+    assert all(link.startswith("#") for link in page.loads), "the page needs nothing beside it"
+    assert "tiny &amp; &lt;small&gt;" in text
+    assert "prefers-color-scheme: dark" in text
+    assert re.findall(r"#0[1-9]0[1-9]0[1-9]", text) == [], "every colour is a variable"
+    ids = re.findall(r' id="([^"]*)"', text)
+    assert len(ids) == len(set(ids))
+    used = set(re.findall(r"url\(#([^)]*)\)", text)) | {link[1:] for link in page.loads}
+    assert used <= set(ids)
+
+
+def test_a_part_of_the_pairs(scene):
+    assert len(load(scene).pairs) == 10
+    few = load(scene, 3)
+    assert [(p.name_a, p.name_b) for p in few.pairs] == [("floor", "turned"), ("floor", "rod"), ("turned", "rod")]
+    assert few.total == 10
+
+
+def test_a_broken_bracket_is_found(scene):
+    """The report is a judge: shown a wrong truth it must say so."""
+    pairs = [Pair("a", "b", Box((1, 1, 1)), Box((1, 1, 1)).at((3, 0, 0)))]
+    found = truth.find(pairs, 3, 1, lambda done, total: None)
+    assert found[0].relation == APART
+    assert found[0].lower == found[0].upper == 1
+    answers = measure.solve(pairs, 3, "double", lambda done, total: None)
+    assert table.summarise("double", pairs, found, answers).violations == 0
+    nearer = [t._replace(lower=t.lower / 2, upper=t.upper / 2) for t in found]
+    broken = table.summarise("double", pairs, nearer, answers)
+    assert broken.full.violations == 1
+    assert broken.full.error.max == pytest.approx(0.5 / (2.0**-53 * found[0].scale))
+    assert broken.intersect.violations == 0
+    for relation in (TOUCHING, OVERLAPPING):
+        assert table.summarise("double", pairs, [found[0]._replace(relation=relation)], answers).intersect.violations
+
+
+def test_several_processes_find_the_same(scene):
+    pairs = load(scene).pairs
+    done = []
+    alone = truth.find(pairs, 3, 1, lambda n, total: None)
+    assert truth.find(pairs, 3, 2, lambda n, total: done.append((n, total))) == alone
+    assert done[-1] == (10, 10)
+
+
+def test_answers_are_those_of_the_library(scene):
+    pairs = load(scene).pairs
+    for precision in ("double", "float"):
+        for level in measure.solve(pairs, 3, precision, lambda done, total: None):
+            if level.level.kind == "rel_tol":
+                for pair, answer in zip(pairs, level.answers):
+                    result = distance(pair.a, pair.b, precision=precision, rel_tol=level.level.setting)
+                    assert (result.value, result.lower, result.upper) == answer[:3]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"pairs": []},
+        {"pairs": [["floor", "nobody"]]},
+        {"pairs": [["floor"]]},
+        {"pairs": 7},
+        {"bodies": [{"name": "x"}]},
+        {"bodies": [{"name": "x", "shape": "unknown"}]},
+        {"dim": 7},
+        {"shapes": [1]},
+    ],
+)
+def test_what_is_not_a_scene(tmp_path, change, capsys):
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps({**SCENE, **change}))
+    with pytest.raises(SceneError):
+        load(path)
+    assert main(["report", str(path), "--out", str(tmp_path / "out")]) == 2
+    assert "scene.json" in capsys.readouterr().err
+
+
+def test_a_file_that_is_no_scene(tmp_path, capsys):
+    path = tmp_path / "scene.json"
+    for text in ("{", "[]", "7"):
+        path.write_text(text)
+        assert main(["report", str(path)]) == 2
+    assert main(["report", str(tmp_path / "none.json")]) == 2
+    assert "none.json" in capsys.readouterr().err
+
+
+def test_bad_numbers_in_a_scene_are_named(tmp_path, capsys):
+    bodies = [{**body, "pose": None} for body in SCENE["bodies"]]
+    shapes = {**SCENE["shapes"], "ball": {"shape": "sphere", "r": -1}}
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps({**SCENE, "bodies": bodies, "shapes": shapes}))
+    assert main(["report", str(path), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 2
+    assert "floor and ball: b: radius is -1" in capsys.readouterr().err

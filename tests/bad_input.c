@@ -1,0 +1,659 @@
+/* SPDX-License-Identifier: MIT */
+/* Each kind of bad input has its outcome: GJK_BAD_ARGUMENT for what the call itself carries, GJK_BAD_SUPPORT for what
+ * the supports return, and the result untouched by both; or, where the input is odd but legal, the truth. */
+#include "bodies.h"
+
+static body a, b;
+
+/* Two boxes of half size 1 on the first axis, 3 from centre to centre: 1 apart. */
+static int fresh(void **state)
+{
+    (void)state;
+    start_body(&a, BOX);
+    start_body(&b, BOX);
+    for (int i = 0; i < DIM; i++) {
+        a.half[i] = b.half[i] = 1;
+    }
+    b.pose.p[0] = 3;
+    bind(&a);
+    bind(&b);
+    return 0;
+}
+
+typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
+static query_fn *const queries[2] = {V(distance), V(intersect)};
+
+static void expect_query(query_fn *query, const V(shape) * x, const V(shape) * y, const V(options) * o, int status)
+{
+    V(result) r, before;
+    memset(&before, 0x5a, sizeof before);
+    r = before;
+    assert_int_equal(query(x, y, o, &r), status);
+    if (status < 0) {
+        assert_memory_equal(&r, &before, sizeof r);
+    }
+}
+
+/* Both ways round, both queries. */
+static void expect_with(const V(options) * o, int status)
+{
+    for (int q = 0; q < 2; q++) {
+        expect_query(queries[q], &a.shape, &b.shape, o, status);
+        expect_query(queries[q], &b.shape, &a.shape, o, status);
+    }
+}
+
+static void expect(int status) { expect_with(NULL, status); }
+
+/* Legal: both queries answer, and their brackets hold the truth. */
+static void expect_truth_with(const V(options) * o, double truth)
+{
+    V(result) r;
+    for (int swap = 0; swap < 2; swap++) {
+        const V(shape) *x = swap ? &b.shape : &a.shape, *y = swap ? &a.shape : &b.shape;
+        assert_true(V(distance)(x, y, o, &r) >= 0);
+        assert_true((double)r.lower <= fmax(truth, 0) && fmax(truth, 0) <= (double)r.upper);
+        assert_true(r.lower <= r.value && r.value <= r.upper);
+        assert_true(V(intersect)(x, y, o, &r) >= 0);
+        assert_true((double)r.lower <= truth && truth <= (double)r.upper);
+        assert_true(r.lower <= r.value && r.value <= r.upper);
+    }
+}
+
+static void expect_truth(double truth) { expect_truth_with(NULL, truth); }
+
+#define BAD_NUMBERS 4
+static real bad_number(int i)
+{
+    const real bad[BAD_NUMBERS] = {(real)NAN, (real)INFINITY, -(real)INFINITY, -(real)NAN};
+    return bad[i];
+}
+
+/* ---- pointers ---- */
+
+static void null_pointers(void **state)
+{
+    V(result) r;
+    (void)state;
+    for (int q = 0; q < 2; q++) {
+        expect_query(queries[q], NULL, &b.shape, NULL, GJK_BAD_ARGUMENT);
+        expect_query(queries[q], &a.shape, NULL, NULL, GJK_BAD_ARGUMENT);
+        assert_int_equal(queries[q](&a.shape, &b.shape, NULL, NULL), GJK_BAD_ARGUMENT);
+    }
+    a.shape.support = NULL;
+    expect(GJK_BAD_ARGUMENT);
+    bind(&a);
+    a.shape.data = NULL;
+    expect(GJK_BAD_SUPPORT);
+    bind(&a);
+    a.shape.pose = NULL;
+    expect_truth(1);
+    assert_int_equal(V(distance)(&a.shape, &a.shape, NULL, &r), GJK_OK);
+}
+
+static void ready_made_without_data(void **state)
+{
+    V(support_fn) *const all[] = {
+        V(support_points),
+        V(support_box),
+        V(support_segment),
+        V(support_ball),
+        V(support_sum),
+        V(support_hull),
+#if DIM == 3
+        V(support_triangle),
+        V(support_cylinder),
+        V(support_cone),
+        V(support_disc),
+#endif
+    };
+    (void)state;
+    a.shape.data = NULL;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        a.shape.support = all[i];
+        expect(GJK_BAD_SUPPORT);
+    }
+    a.shape.support = V(support_origin);
+    expect_truth(2);
+}
+
+/* ---- numbers ---- */
+
+static void poses_not_finite(void **state)
+{
+    (void)state;
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        for (int i = 0; i < DIM * DIM; i++) {
+            fresh(NULL);
+            a.pose.m[i] = bad_number(k);
+            expect(GJK_BAD_ARGUMENT);
+        }
+        for (int i = 0; i < DIM; i++) {
+            fresh(NULL);
+            a.pose.p[i] = bad_number(k);
+            expect(GJK_BAD_ARGUMENT);
+        }
+    }
+}
+
+static void radii(void **state)
+{
+    (void)state;
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        a.shape.radius = bad_number(k);
+        expect(GJK_BAD_ARGUMENT);
+    }
+    a.shape.radius = -REAL_MIN;
+    expect(GJK_BAD_ARGUMENT);
+    a.shape.radius = -(real)0.0;
+    expect_truth(1);
+    a.shape.radius = (real)0.5;
+    expect_truth(0.5);
+    b.shape.radius = (real)0.5;
+    expect_truth(0);
+}
+
+static void sizes_of(enum kind kind, real *size, real good)
+{
+    start_body(&a, kind);
+    a.radius = a.half_length = 1;
+    for (int i = 0; i < DIM; i++) {
+        a.half[i] = 1;
+    }
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        *size = bad_number(k);
+        bind(&a);
+        expect(GJK_BAD_SUPPORT);
+    }
+    *size = -good;
+    bind(&a);
+    expect(GJK_BAD_SUPPORT);
+    *size = good;
+    bind(&a);
+    expect_truth(1);
+}
+
+static void sizes(void **state)
+{
+    (void)state;
+    for (int i = 0; i < DIM; i++) {
+        sizes_of(BOX, &a.half[i], 1);
+    }
+    sizes_of(BALL, &a.radius, 1);
+#if DIM == 3
+    sizes_of(CYLINDER, &a.radius, 1);
+    sizes_of(CYLINDER, &a.half_length, 1);
+    sizes_of(CONE, &a.half_length, 1);
+    sizes_of(DISC, &a.radius, 1);
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        start_body(&a, CONE);
+        a.half_length = 1;
+        a.radius = bad_number(k);
+        bind(&a);
+        expect(GJK_BAD_SUPPORT);
+    }
+#endif
+}
+
+static void sizes_of_0(void **state)
+{
+    static const enum kind kinds[] = {BOX, BALL, CYLINDER, CONE, DISC, SEGMENT, TRIANGLE};
+    (void)state;
+    for (int k = 0; k < 7; k++) {
+        if (DIM == 2 && (kinds[k] == CYLINDER || kinds[k] == CONE || kinds[k] == DISC || kinds[k] == TRIANGLE)) {
+            continue;
+        }
+        start_body(&a, kinds[k]);
+        bind(&a);
+        expect_truth(2);
+    }
+}
+
+static void points_not_finite(void **state)
+{
+    static const enum kind kinds[] = {POINTS, SEGMENT, TRIANGLE};
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        for (int k = 0; k < BAD_NUMBERS; k++) {
+            for (int at = 0; at < 3; at++) {
+                for (int i = 0; i < DIM; i++) {
+                    if ((kinds[kind] == TRIANGLE && DIM == 2) || (kinds[kind] == SEGMENT && at == 2)) {
+                        continue;
+                    }
+                    start_body(&a, kinds[kind]);
+                    a.count = 3;
+                    a.v[1][1] = a.v[2][0] = 1;
+                    a.v[at][i] = bad_number(k);
+                    bind(&a);
+                    assert_true(kind > 0 || isnan(a.set.points.reach));
+                    expect(GJK_BAD_SUPPORT);
+                    a.set.points.reach = 0; /* for the clouds: not known */
+                    if (kinds[kind] == POINTS) {
+                        expect(GJK_BAD_SUPPORT);
+                    }
+                }
+            }
+        }
+    }
+}
+
+static void cloud(int count)
+{
+    start_body(&a, POINTS);
+    a.count = count;
+    for (int k = 0; k < count; k++) {
+        a.v[k][0] = (real)(k & 1);
+        a.v[k][1] = (real)(k & 2);
+    }
+    bind(&a);
+}
+
+static void point_sets(void **state)
+{
+    (void)state;
+    cloud(0);
+    assert_true(isnan(a.set.points.reach));
+    expect(GJK_BAD_SUPPORT);
+    a.set.points.reach = 0;
+    expect(GJK_BAD_SUPPORT);
+
+    cloud(4);
+    expect_truth(1);
+    a.set.points.v = NULL;
+    expect(GJK_BAD_SUPPORT);
+    assert_true(isnan(V(points_reach)(&a.set.points)));
+    assert_true(isnan(V(points_reach)(NULL)));
+
+    cloud(4);
+    for (uint32_t stride = 1; stride < DIM * sizeof(real); stride++) {
+        a.set.points.stride = stride;
+        expect(GJK_BAD_SUPPORT);
+        assert_true(isnan(V(points_reach)(&a.set.points)));
+    }
+    a.set.points.stride = DIM * sizeof(real) + 1;
+    expect(GJK_BAD_SUPPORT);
+    a.set.points.stride = DIM * sizeof(real);
+    expect_truth(1);
+    a.set.points.stride = 2 * DIM * sizeof(real); /* every second point: those with x = 0 */
+    a.set.points.count = 2;
+    expect_truth(2);
+
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        cloud(4);
+        a.set.points.reach = bad_number(k);
+        expect(GJK_BAD_SUPPORT);
+    }
+    a.set.points.reach = -1;
+    expect(GJK_BAD_SUPPORT);
+    a.set.points.reach = 0;
+    expect_truth(1);
+    a.set.points.reach = 100;
+    expect_truth(1);
+    a.set.points.reach = (real)0.5; /* less than its points */
+    expect(GJK_BAD_SUPPORT);
+}
+
+/* A singular map is legal: the set is flat, on a line, or one point. */
+static void singular_poses(void **state)
+{
+    (void)state;
+    memset(a.pose.m, 0, sizeof a.pose.m);
+    expect_truth(2);
+    memset(b.pose.m, 0, sizeof b.pose.m);
+    expect_truth(3);
+    b.pose.p[0] = 0;
+    expect_truth(0);
+    for (int flat = 0; flat < DIM; flat++) {
+        fresh(NULL);
+        a.pose.m[flat * DIM + flat] = 0;
+        expect_truth(flat == 0 ? 2 : 1);
+        b.pose.m[flat * DIM + flat] = 0;
+        expect_truth(flat == 0 ? 3 : 1);
+        b.pose.p[0] = flat == 0 ? 0 : 1;
+        expect_truth(flat == 0 ? 0 : 0);
+    }
+}
+
+/* ---- callbacks ---- */
+
+static struct {
+    real point[DIM], reach;
+    int calls;
+} fake;
+
+static real fake_support(const void *data, const real *dir, real *point)
+{
+    (void)data;
+    (void)dir;
+    fake.calls++;
+    memcpy(point, fake.point, sizeof fake.point);
+    return fake.reach;
+}
+
+static void use_fake(real x, real reach)
+{
+    fresh(NULL);
+    memset(&fake, 0, sizeof fake);
+    fake.point[0] = x;
+    fake.reach = reach;
+    a.shape.support = fake_support;
+}
+
+static void callbacks_not_finite(void **state)
+{
+    (void)state;
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        for (int i = 0; i < DIM; i++) {
+            for (int known = 0; known < 2; known++) {
+                use_fake(0, (real)(2 * known));
+                fake.point[i] = bad_number(k);
+                expect(GJK_BAD_SUPPORT);
+            }
+        }
+        use_fake(0, bad_number(k));
+        expect(GJK_BAD_SUPPORT);
+    }
+}
+
+static void callback_reaches(void **state)
+{
+    V(result) known, unknown;
+    (void)state;
+    use_fake(1, -1);
+    expect(GJK_BAD_SUPPORT);
+    use_fake(1, (real)0.5);
+    expect(GJK_BAD_SUPPORT);
+    use_fake(1, 1);
+    expect_truth(1);
+    assert_true(V(distance)(&a.shape, &b.shape, NULL, &known) >= 0);
+    assert_int_equal(known.supports, 2 * known.steps);
+    use_fake(1, 0);
+    expect_truth(1);
+    assert_true(V(distance)(&a.shape, &b.shape, NULL, &unknown) >= 0);
+    assert_int_equal(unknown.supports, known.supports + 2 * DIM);
+}
+
+/* Every support call is counted, and no query calls without end. */
+static void calls_are_counted(void **state)
+{
+    V(result) r;
+    (void)state;
+    use_fake(1, 1);
+    b = a;
+    b.pose.p[0] = 3;
+    b.shape.pose = &b.pose;
+    assert_true(V(distance)(&a.shape, &b.shape, NULL, &r) >= 0);
+    assert_int_equal(r.supports, fake.calls);
+    fake.calls = 0;
+    assert_true(V(intersect)(&a.shape, &b.shape, NULL, &r) >= 0);
+    assert_int_equal(r.supports, fake.calls);
+}
+
+/* First a point near, then only points farther away: no convex set answers so. */
+static real backing_support(const void *data, const real *dir, real *point)
+{
+    (void)data;
+    (void)dir;
+    memset(point, 0, DIM * sizeof *point);
+    point[0] = fake.calls++ ? -2 : 1;
+    return 4;
+}
+
+static void points_that_contradict(void **state)
+{
+    V(result) r;
+    (void)state;
+    for (int q = 0; q < 2; q++) {
+        fresh(NULL);
+        memset(&r, 0x5a, sizeof r);
+        a.shape.support = backing_support;
+        b.shape.support = V(support_origin);
+        fake.calls = 0;
+        int status = queries[q](&a.shape, &b.shape, NULL, &r);
+        /* 1 is proven reached, then nothing beyond -2 is: distance must notice, intersect may have had its proof. */
+        assert_true(status == GJK_BAD_SUPPORT || (q == 1 && status == GJK_DECIDED));
+    }
+}
+
+/* Noise of its own at each call, and no convex set behind it: any outcome but a hang, a crash or a half-written result.
+ */
+static real noisy_support(const void *data, const real *dir, real *point)
+{
+    uint64_t *state = (uint64_t *)(uintptr_t)data;
+    (void)dir;
+    for (int i = 0; i < DIM; i++) {
+        *state = *state * 6364136223846793005u + 1442695040888963407u;
+        point[i] = (real)((double)(*state >> 40) / 16777216.0 - 0.5);
+    }
+    return *state % 3 ? 1 : 0;
+}
+
+static void noise(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 2000; seed++) {
+        uint64_t s = seed;
+        V(result) r, before;
+        V(options) o = default_options();
+        V(cache) cache;
+        int status;
+        memset(&cache, 0, sizeof cache);
+        o.cache = &cache;
+        fresh(NULL);
+        a.shape.support = noisy_support;
+        a.shape.data = &s;
+        b.pose.p[0] = (real)((double)(seed % 7) / 2);
+        for (int k = 0; k < 4; k++) {
+            memset(&before, 0x5a, sizeof before);
+            r = before;
+            status = queries[k % 2](&a.shape, &b.shape, &o, &r);
+            assert_true(status >= 0 || status == GJK_BAD_SUPPORT);
+            if (status < 0) {
+                assert_memory_equal(&r, &before, sizeof r);
+            } else {
+                assert_true(r.lower <= r.value && r.value <= r.upper);
+                assert_int_equal(r.status, status);
+            }
+        }
+    }
+}
+
+static void bad_couples(void **state)
+{
+    static body part[2];
+    (void)state;
+    for (int kind = SUM; kind <= HULL; kind++) {
+        for (int bad = 0; bad < 5; bad++) {
+            for (int at = 0; at < 2; at++) {
+                fresh(NULL);
+                part[0] = a;
+                part[1] = a;
+                bind(&part[0]);
+                bind(&part[1]);
+                start_body(&a, (enum kind)kind);
+                a.part[0] = &part[0];
+                a.part[1] = &part[1];
+                if (bad == 0) {
+                    part[at].shape.support = NULL;
+                } else if (bad == 1) {
+                    part[at].shape.data = NULL;
+                } else if (bad == 2) {
+                    part[at].shape.radius = -1;
+                } else if (bad == 3) {
+                    part[at].shape.radius = (real)NAN;
+                } else {
+                    part[at].pose.p[1] = (real)INFINITY;
+                }
+                bind(&a);
+                expect(GJK_BAD_SUPPORT);
+            }
+        }
+    }
+}
+
+/* ---- options ---- */
+
+static void option_sizes(void **state)
+{
+    union {
+        V(options) o;
+        unsigned char bytes[1024];
+        uint32_t size;
+    } u;
+    const uint32_t whole = (uint32_t)sizeof(V(options)), short_of = (uint32_t)offsetof(V(options), cache);
+    (void)state;
+    for (uint32_t size = 0; size <= 1024; size++) {
+        int older = size == short_of || size == short_of + sizeof(void *);
+        memset(&u, 0, sizeof u);
+        u.size = size;
+        if (size > whole ? 1 : older || size == whole) {
+            expect_truth_with(&u.o, 1);
+        } else {
+            expect_with(&u.o, GJK_BAD_ARGUMENT);
+        }
+        if (size > whole) {
+            u.bytes[size - 1] = 1;
+            expect_with(&u.o, GJK_BAD_ARGUMENT);
+            u.bytes[size - 1] = 0;
+            u.bytes[whole] = 1;
+            expect_with(&u.o, GJK_BAD_ARGUMENT);
+        }
+    }
+    memset(&u, 0, sizeof u);
+    u.size = UINT32_MAX;
+    expect_with(&u.o, GJK_BAD_ARGUMENT);
+    u.size = 0x10000;
+    expect_with(&u.o, GJK_BAD_ARGUMENT);
+}
+
+/* What an older caller's struct does not hold is not read. */
+static void older_options(void **state)
+{
+    V(options) o;
+    (void)state;
+    memset(&o, 0xff, sizeof o);
+    o.size = (uint32_t)offsetof(V(options), cache);
+    o.max_steps = 0;
+    o.abs_tol = o.rel_tol = o.cutoff = o.slack = 0;
+    expect_truth_with(&o, 1);
+    o.size += (uint32_t)sizeof(void *);
+    o.cache = NULL;
+    expect_truth_with(&o, 1);
+}
+
+static void option_numbers(void **state)
+{
+    V(options) o = default_options();
+    real *const fields[] = {&o.abs_tol, &o.rel_tol, &o.cutoff, &o.slack};
+    (void)state;
+    for (int f = 0; f < 4; f++) {
+        *fields[f] = (real)NAN;
+        expect_with(&o, GJK_BAD_ARGUMENT);
+        *fields[f] = -1;
+        expect_with(&o, GJK_BAD_ARGUMENT);
+        *fields[f] = -(real)INFINITY;
+        expect_with(&o, GJK_BAD_ARGUMENT);
+        *fields[f] = -(real)0.0;
+        expect_truth_with(&o, 1);
+        *fields[f] = 1;
+        expect_truth_with(&o, 1);
+        *fields[f] = REAL_MAX;
+        if (f < 3) {
+            expect_truth_with(&o, 1);
+        }
+        *fields[f] = 0;
+    }
+    o.slack = (real)INFINITY;
+    expect_with(&o, GJK_BAD_ARGUMENT);
+    o.slack = 0;
+    o.reserved = &o;
+    expect_with(&o, GJK_BAD_ARGUMENT);
+    o.reserved = NULL;
+    o.max_steps = UINT32_MAX;
+    expect_truth_with(&o, 1);
+    o.max_steps = 1;
+    expect_truth_with(&o, 1);
+}
+
+/* ---- magnitudes ---- */
+
+/* Boxes with the given half size, that much times 3 from centre to centre; what is representable must be right. */
+static void boxes_of(double size, double gap_in_sizes)
+{
+    fresh(NULL);
+    for (int i = 0; i < DIM; i++) {
+        a.half[i] = b.half[i] = (real)size;
+    }
+    b.pose.p[0] = (real)((2 + gap_in_sizes) * size);
+    bind(&a);
+    bind(&b);
+    expect_truth((double)b.pose.p[0] - 2 * (double)(real)size);
+}
+
+static void magnitudes(void **state)
+{
+    const double tiny = (double)REAL_MIN * (double)REAL_EPSILON;
+    (void)state;
+    for (double size = tiny; size <= (double)REAL_MAX / 64; size *= 2) {
+        boxes_of(size, 1);
+        boxes_of(size, 0);
+        boxes_of(size, -1);
+    }
+    /* Beyond the format: refused, or right. */
+    for (double size = (double)REAL_MAX / 64; size <= (double)REAL_MAX; size *= 2) {
+        V(result) r, before;
+        fresh(NULL);
+        for (int i = 0; i < DIM; i++) {
+            a.half[i] = b.half[i] = (real)size;
+        }
+        bind(&a);
+        bind(&b);
+        memset(&before, 0x5a, sizeof before);
+        for (int q = 0; q < 2; q++) {
+            r = before;
+            int status = queries[q](&a.shape, &b.shape, NULL, &r);
+            assert_true(status < 0 || r.lower <= 0);
+            assert_true(status >= 0 || memcmp(&r, &before, sizeof r) == 0);
+        }
+    }
+}
+
+static void sizes_worlds_apart(void **state)
+{
+    (void)state;
+    for (int k = 0; k < DIM; k++) {
+        fresh(NULL);
+        a.half[k] = (real)((double)REAL_MAX / 1024);
+        b.half[k] = REAL_MIN * REAL_EPSILON * 3;
+        bind(&a);
+        bind(&b);
+        expect_truth(k == 0 ? -2 : 1); /* out by another axis */
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(null_pointers, fresh),
+        cmocka_unit_test_setup(ready_made_without_data, fresh),
+        cmocka_unit_test_setup(poses_not_finite, fresh),
+        cmocka_unit_test_setup(radii, fresh),
+        cmocka_unit_test_setup(sizes, fresh),
+        cmocka_unit_test_setup(sizes_of_0, fresh),
+        cmocka_unit_test_setup(points_not_finite, fresh),
+        cmocka_unit_test_setup(point_sets, fresh),
+        cmocka_unit_test_setup(singular_poses, fresh),
+        cmocka_unit_test_setup(callbacks_not_finite, fresh),
+        cmocka_unit_test_setup(callback_reaches, fresh),
+        cmocka_unit_test_setup(calls_are_counted, fresh),
+        cmocka_unit_test_setup(points_that_contradict, fresh),
+        cmocka_unit_test_setup(noise, fresh),
+        cmocka_unit_test_setup(bad_couples, fresh),
+        cmocka_unit_test_setup(option_sizes, fresh),
+        cmocka_unit_test_setup(older_options, fresh),
+        cmocka_unit_test_setup(option_numbers, fresh),
+        cmocka_unit_test_setup(magnitudes, fresh),
+        cmocka_unit_test_setup(sizes_worlds_apart, fresh),
+    };
+    return cmocka_run_group_tests_name("bad input to " VARIANT, tests, NULL, NULL);
+}

@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: MIT */
+/* Every answer's bracket holds the truth, at every exit, whatever the pair and the options.
+ *
+ *   brackets [PAIRS [SEED]]     PAIRS over all families but the round one; default GJK_PAIRS or 100000
+ *
+ * Prints for each family how wrong the value is and how wide the bracket, in u * scale, and the support calls. */
+#include "pairs.h"
+#include "truth.h"
+
+/* In u * scale. */
+#define VALUE_ERROR 4.0
+/* In u * span, the span being what rounding scales with where little of it can be seen in the scale: the maps' norms
+ * times the sets' reaches, the offset, the radii. A support may stand off its set by 8 u of its reach. */
+#define WITNESS_ERROR 16.0
+#define WIDTH 100.0
+
+/* One kind of violation: how often, and the worst. */
+typedef struct violation {
+    const char *what;
+    long count;
+    double worst;
+} violation;
+
+typedef struct tally {
+    enum family family;
+    violation violations[32];
+    long pairs, broken, uncertified, apart, meeting;
+    double max_error, sum_error, max_width, max_span_width, max_witness, sum_calls, max_calls, max_touch;
+    long floors;
+} tally;
+
+static tally tallies[FAMILIES];
+static long pairs_per_family;
+static uint64_t seed = 1;
+
+/* What is being checked, for the message. */
+static struct {
+    const pair *pair;
+    const truth *truth;
+    quad span;
+    tally *tally;
+    const char *query;
+    V(options) options;
+    long index;
+} now;
+
+static void broken(const char *what, const V(result) * r, double by)
+{
+    violation *v = now.tally->violations;
+    now.tally->broken++;
+    while (v->what && v->what != what) {
+        v++;
+    }
+    v->what = what;
+    v->worst = fmax(v->worst, by);
+    if (v->count++) {
+        return; /* one example of each kind */
+    }
+    print_error("%s %s, pair %ld of %s: %s (%.3g)\n", VARIANT, now.query, now.index, family_name[now.tally->family],
+                what, by);
+    print_error("  status %d value %.17g lower %.17g upper %.17g steps %d; truth %.17g + %.3g, scale %.3g\n", r->status,
+                (double)r->value, (double)r->lower, (double)r->upper, r->steps, (double)now.truth->lower,
+                (double)(now.truth->upper - now.truth->lower), (double)now.truth->scale);
+    print_error("  max_steps %u abs_tol %.17g rel_tol %.17g cutoff %.17g cache %d\n  ", now.options.max_steps,
+                (double)now.options.abs_tol, (double)now.options.rel_tol, (double)now.options.cutoff,
+                now.options.cache != NULL);
+    print_case(stderr, now.query, &now.pair->a, &now.pair->b);
+}
+
+static double in_u(quad x, quad scale) { return (double)(x / (scale * (quad)U + (quad)REAL_MIN)); }
+
+static double span_of(const body *b)
+{
+    real dir[DIM] = {1}, x[DIM];
+    double sum = 0, reach = (double)b->shape.support(b->shape.data, dir, x);
+    for (int i = 0; i < DIM * DIM; i++) {
+        sum += (double)b->pose.m[i] * (double)b->pose.m[i];
+    }
+    return sqrt(sum) * reach + (double)b->shape.radius;
+}
+
+static double span_of_pair(const pair *p)
+{
+    double sum = span_of(&p->a) + span_of(&p->b);
+    for (int i = 0; i < DIM; i++) {
+        sum += fabs((double)p->b.pose.p[i] - (double)p->a.pose.p[i]);
+    }
+    return sum;
+}
+
+/* How far the point stands off the body. */
+static double stands_off(const view *v, const body *b, const quad *point)
+{
+    view p;
+    double off;
+    memset(&p, 0, sizeof p);
+    p.count = 1;
+    for (int i = 0; i < DIM; i++) {
+        p.v[0][i] = point[i];
+        p.near[0][i] = (double)point[i];
+        p.size = fmax(p.size, fabs(p.near[0][i]));
+    }
+    if (v->count) {
+        double_slow r;
+        memset(&r, 0, sizeof r);
+        double_solve(&p, v, p.size + v->size, 60, &r);
+        off = r.upper;
+    } else {
+        quad_slow r;
+        memset(&r, 0, sizeof r);
+        quad_solve(&p, v, (quad)p.size + (quad)v->size, 30, &r);
+        off = (double)r.lower;
+    }
+    return off - (double)b->shape.radius;
+}
+
+/* The separation along the normal, exactly normalised: whatever the normal, a lower bound of the truth. */
+static quad separation(const V(result) * r)
+{
+    const truth *t = now.truth;
+    quad n[DIM], back[DIM], a[DIM], b[DIM], l;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)r->normal[i];
+        back[i] = -n[i];
+    }
+    l = quad_length(n);
+    quad_farthest(&t->a, n, a);
+    quad_farthest(&t->b, back, b);
+    return (quad_dot(n, b) - quad_dot(n, a)) / l - (quad)now.pair->a.shape.radius - (quad)now.pair->b.shape.radius;
+}
+
+static void check_witnesses(const V(result) * r)
+{
+    const truth *t = now.truth;
+    quad a[DIM], b[DIM], gap[DIM], scale, n = 0;
+    double world = 0, off;
+    for (int i = 0; i < DIM; i++) {
+        quad origin = (quad)now.pair->a.pose.p[i];
+        a[i] = (quad)r->point_a[i] - origin;
+        b[i] = (quad)r->point_b[i] - origin;
+        gap[i] = b[i] - a[i];
+        world = fmax(world, fmax(fabs((double)r->point_a[i]), fabs((double)r->point_b[i])));
+        n += (quad)r->normal[i] * (quad)r->normal[i];
+    }
+    scale = now.span + world;
+    off = fmax(stands_off(&t->a, &now.pair->a, a), stands_off(&t->b, &now.pair->b, b));
+    now.tally->max_witness = fmax(now.tally->max_witness, in_u(off, scale));
+    if (!(in_u(off, scale) <= WITNESS_ERROR)) {
+        broken("a witness point is outside, in u * span", r, in_u(off, scale));
+    }
+    off = in_u(quad_length(gap) - positive((quad)r->upper), scale);
+    if (!(off <= WITNESS_ERROR && off >= -WIDTH)) {
+        broken("the witness points do not realise upper, in u * span", r, off);
+    }
+    off = in_u(quad_abs(quad_sqrt(n) - 1), 1);
+    if (!(off <= 4)) {
+        broken("the normal is not unit, in u", r, off);
+    }
+    off = in_u((quad)r->lower - separation(r), scale);
+    if ((r->lower > 0 || now.query[0] == 'i') && !(off <= WITNESS_ERROR)) {
+        broken("the normal does not realise lower, in u * span", r, off);
+    }
+}
+
+/* What every answer owes. low <= truth <= high. */
+static void check_bracket(const V(result) * r, int status, quad low, quad high)
+{
+    const V(options) *o = &now.options;
+    if (status != r->status) {
+        broken("returned another status than written", r, status);
+    }
+    if (status < 0) {
+        broken("an error for a good pair", r, status);
+        return;
+    }
+    if (!((quad)r->lower <= high)) {
+        broken("lower is above the truth, in u * scale", r, in_u((quad)r->lower - high, now.truth->scale));
+    }
+    if (!((quad)r->upper >= low)) {
+        broken("upper is below the truth, in u * scale", r, in_u(low - (quad)r->upper, now.truth->scale));
+    }
+    if (!(r->lower <= r->value && r->value <= r->upper)) {
+        broken("the value is outside its bracket", r, 0);
+    }
+    if (r->steps < 0 || r->supports < 0 || (o->max_steps && (uint32_t)r->steps > o->max_steps)) {
+        broken("took more steps than allowed", r, r->steps);
+    }
+    if (status == GJK_LIMIT && (uint32_t)r->steps != (o->max_steps ? o->max_steps : 256)) {
+        broken("says limit before it", r, r->steps);
+    }
+    check_witnesses(r);
+}
+
+static void check_distance(const V(result) * r, int status)
+{
+    const truth *t = now.truth;
+    const V(options) *o = &now.options;
+    quad width = (quad)r->upper - (quad)r->lower;
+    quad asked = (quad)o->abs_tol + (quad)o->rel_tol * (quad)r->upper * (1 + 4 * (quad)U);
+    check_bracket(r, status, positive(t->lower), positive(t->upper));
+    if (status == GJK_OK && !(width <= asked || in_u(width, now.span) <= WIDTH)) {
+        broken("ok, but wider than asked", r, (double)width);
+    }
+    if (status == GJK_FLOOR && !(in_u(width, now.span) <= WIDTH)) {
+        broken("floor, but wider than rounding, in u * span", r, in_u(width, now.span));
+    }
+    if (status == GJK_DECIDED && !(o->cutoff > 0 && r->lower > o->cutoff)) {
+        broken("decided, but not above the cutoff", r, 0);
+    }
+    if (!(r->lower >= 0)) {
+        broken("a distance below 0", r, 0);
+    }
+}
+
+static void check_intersect(const V(result) * r, int status)
+{
+    const truth *t = now.truth;
+    check_bracket(r, status, t->lower, t->upper);
+    if (r->value != (r->lower > 0 ? r->lower : r->upper < 0 ? r->upper : 0)) {
+        broken("the value does not state the verdict", r, 0);
+    }
+    if ((status == GJK_OK || status == GJK_DECIDED) && !(r->lower > 0 || r->upper < 0)) {
+        broken("decided, but no sign is proven", r, 0);
+    }
+    if ((status == GJK_FLOOR || status == GJK_LIMIT) && (r->lower > 0 || r->upper < 0)) {
+        broken("undecided, but a sign is proven", r, 0);
+    }
+    if (status == GJK_FLOOR) {
+        quad nearest = t->lower > 0 ? t->lower : t->upper < 0 ? -t->upper : 0;
+        now.tally->floors++;
+        now.tally->max_touch = fmax(now.tally->max_touch, in_u(nearest, t->scale));
+        if (!(in_u(nearest, now.span) <= WIDTH)) {
+            broken("called touching, but is further off, in u * span", r, in_u(nearest, now.span));
+        }
+    }
+}
+
+static void measure(tally *s, const V(result) * r)
+{
+    const truth *t = now.truth;
+    quad low = positive(t->lower), high = positive(t->upper), v = (quad)r->value;
+    double error = in_u(v > high ? v - high : v < low ? low - v : 0, t->scale);
+    double width = in_u((quad)r->upper - (quad)r->lower, t->scale);
+    s->max_error = fmax(s->max_error, error);
+    s->sum_error += error;
+    s->max_width = fmax(s->max_width, width);
+    s->max_span_width = fmax(s->max_span_width, in_u((quad)r->upper - (quad)r->lower, now.span));
+    s->sum_calls += r->supports / 2.0;
+    s->max_calls = fmax(s->max_calls, r->supports / 2.0);
+    if ((s->family < POLYTOPES || s->family == ROUNDED) && !(error <= VALUE_ERROR)) {
+        broken("the value is further off than it may be, in u * scale", r, error);
+    }
+    if (r->status != GJK_OK && r->status != GJK_FLOOR) {
+        broken("without a limit or a cutoff, yet stopped early", r, r->status);
+    }
+}
+
+/* An earlier pair's cache, handed from pair to pair. */
+static V(cache) stale;
+
+static V(options) draw_options(draws *d, V(cache) * own, const V(result) * first)
+{
+    V(options) o = default_options();
+    V(cache) *const caches[] = {NULL, own, &stale, own};
+    o.max_steps = below(d, 2) ? (uint32_t)(1 + below(d, 5)) : 0;
+    o.abs_tol = below(d, 3) ? 0 : (real)(magnitude(d, -10, 0) * (double)first->value);
+    o.rel_tol = below(d, 3) ? 0 : (real)magnitude(d, -8, 0);
+    o.cutoff = below(d, 3) ? 0 : (real)(between(d, 0, 2) * (double)first->value);
+    o.cache = caches[below(d, 4)];
+    return o;
+}
+
+/* A support that is off: short of the farthest point, by some way towards the point along the first axis, and off the
+ * set along dir. */
+typedef struct loose {
+    V(shape) exact;
+    double short_by; /* at most so much */
+    double off;      /* along dir, in units of roundoff times the reach; below 0: inwards */
+} loose;
+
+/* 0 to 1. Equal directions have equal shares. */
+static double share_of(const real *dir)
+{
+    uint64_t mix = 0;
+    for (int i = 0; i < DIM; i++) {
+        uint64_t word = 0;
+        memcpy(&word, &dir[i], sizeof dir[i]);
+        mix = mixed(&word) ^ (mix << 1);
+    }
+    return (double)(mix >> 11) / 9007199254740992.0;
+}
+
+static real loose_support(const void *data, const real *dir, real *point)
+{
+    const loose *z = data;
+    const real ahead[DIM] = {1};
+    real first[DIM], reach = z->exact.support(z->exact.data, dir, point);
+    double way = 0, most = 0, length = 0, share;
+    z->exact.support(z->exact.data, ahead, first);
+    for (int i = 0; i < DIM; i++) {
+        way += fabs((double)point[i] - (double)first[i]);
+        most = fmax(most, fabs((double)dir[i]));
+    }
+    for (int i = 0; i < DIM; i++) {
+        length += (double)dir[i] / most * ((double)dir[i] / most);
+    }
+    share = share_of(dir) * (way > z->short_by ? z->short_by / way : 1);
+    for (int i = 0; i < DIM; i++) {
+        double off = z->off * U * (double)reach * ((double)dir[i] / most) / sqrt(length);
+        point[i] = (real)((double)point[i] + share * ((double)first[i] - (double)point[i]) + off);
+    }
+    return reach;
+}
+
+/* What is declared in options.slack, and the roundings that every support may make, widen the bracket and no more. The
+ * truth stays that of the exact sets. */
+static void one_loose_pair(tally *s, draws *d, pair *p)
+{
+    static const double offs[] = {0, -7, 7, 7, -7}; /* the point's own rounding makes it 8 */
+    loose a = {p->a.shape, 0, offs[below(d, 5)]}, b = {p->b.shape, 0, offs[below(d, 5)]};
+    V(shape) shape_a = p->a.shape, shape_b = p->b.shape;
+    V(result) r;
+    a.short_by = b.short_by = a.off == 0 && b.off == 0 ? magnitude(d, -9, 0) : 0;
+    shape_a.support = shape_b.support = loose_support;
+    shape_a.data = &a;
+    shape_b.data = &b;
+    now.options = default_options();
+    now.options.slack = (real)(a.short_by * 1.000001);
+    now.options.max_steps = below(d, 2) ? 0 : (uint32_t)(1 + below(d, 8));
+    for (int k = 0; k < 2; k++) {
+        const truth *t = now.truth;
+        int status = (k ? V(intersect) : V(distance))(&shape_a, &shape_b, &now.options, &r);
+        quad low = k ? t->lower : positive(t->lower), high = k ? t->upper : positive(t->upper);
+        now.query = k ? "loose intersect" : "loose distance";
+        if (status < 0) {
+            broken("a support within its licence is called a fault", &r, a.off);
+        } else if (!((quad)r.lower <= high && (quad)r.upper >= low && r.lower <= r.value && r.value <= r.upper)) {
+            broken("the bracket misses the truth of supports within their licence", &r, a.off);
+        }
+    }
+}
+
+static void one_pair(tally *s, long index)
+{
+    draws d = draws_from(seed, (uint64_t)s->family, (uint64_t)index);
+    static pair p;
+    static truth t;
+    V(result) r, first;
+    V(cache) own;
+    int status;
+    memset(&own, 0, sizeof own);
+    draw_pair(&d, s->family, &p);
+    find_truth(&t, &p.a, &p.b, 1);
+    s->pairs++;
+    s->apart += t.lower > 0;
+    s->meeting += t.upper < 0;
+    s->uncertified += t.a.count && t.b.count && !t.certified;
+    now.pair = &p;
+    now.truth = &t;
+    now.span = span_of_pair(&p);
+    now.tally = s;
+    now.index = index;
+
+    now.query = "distance";
+    now.options = default_options();
+    memset(&first, 0, sizeof first);
+    status = V(distance)(&p.a.shape, &p.b.shape, index % 2 ? &now.options : NULL, &first);
+    check_distance(&first, status);
+    measure(s, &first);
+    for (int k = 0; k < 2; k++) {
+        now.options = draw_options(&d, &own, &first);
+        r = first;
+        status = V(distance)(&p.a.shape, &p.b.shape, &now.options, &r);
+        check_distance(&r, status);
+    }
+
+    now.query = "intersect";
+    now.options = default_options();
+    memset(&r, 0, sizeof r);
+    status = V(intersect)(&p.a.shape, &p.b.shape, NULL, &r);
+    check_intersect(&r, status);
+    now.options = draw_options(&d, &own, &first);
+    status = V(intersect)(&p.a.shape, &p.b.shape, &now.options, &r);
+    check_intersect(&r, status);
+    if (s->family < RATIOS && s->family != SLIVERS) { /* turned and moved only: slack keeps its size */
+        one_loose_pair(s, &d, &p);
+    }
+}
+
+static void family_holds(void **state)
+{
+    tally *s = *state;
+    long pairs = s->family == ROUND ? (pairs_per_family + 7) / 8 : pairs_per_family; /* these cost 50 times as much */
+    for (long i = 0; i < pairs; i++) {
+        one_pair(s, i);
+    }
+    printf("%-6s %-10s %8ld pairs %5.1f%% apart %5.1f%% meet | error max %5.2f mean %5.3f | width max %6.1f, %5.1f of "
+           "span | "
+           "witness %5.2f | calls %5.2f max %5.1f | touching %ld within %.2f\n",
+           VARIANT, family_name[s->family], s->pairs, 100.0 * (double)s->apart / (double)s->pairs,
+           100.0 * (double)s->meeting / (double)s->pairs, s->max_error, s->sum_error / (double)s->pairs, s->max_width,
+           s->max_span_width, s->max_witness, s->sum_calls / (double)s->pairs, s->max_calls, s->floors, s->max_touch);
+    for (const violation *v = s->violations; v->what; v++) {
+        print_error("%s %s: %ld times %s, at worst %.3g\n", VARIANT, family_name[s->family], v->count, v->what,
+                    v->worst);
+    }
+    assert_int_equal(s->broken, 0);
+    assert_true(s->uncertified <= s->pairs / 10000);
+}
+
+int main(int argc, char **argv)
+{
+    const char *pairs = argc > 1 ? argv[1] : getenv("GJK_PAIRS");
+    struct CMUnitTest tests[FAMILIES];
+    seed = argc > 2 ? strtoull(argv[2], NULL, 10) : seed;
+    pairs_per_family = (strtol(pairs ? pairs : "100000", NULL, 10) + ROUND - 1) / ROUND;
+    memset(tests, 0, sizeof tests);
+    for (int f = 0; f < FAMILIES; f++) {
+        tallies[f].family = (enum family)f;
+        tests[f].name = family_name[f];
+        tests[f].test_func = family_holds;
+        tests[f].initial_state = &tallies[f];
+    }
+    printf("%ld pairs in each family, seed %llu; errors in u * scale\n", pairs_per_family, (unsigned long long)seed);
+    return cmocka_run_group_tests_name("brackets of " VARIANT, tests, NULL, NULL);
+}

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+/* A cache that does not fit costs time, never truth. */
+#include "pairs.h"
+#include "truth.h"
+
+static V(cache) cache;
+static pair p;
+static truth t;
+
+static void start_cache(void) { memset(&cache, 0, sizeof cache); }
+
+/* Both queries, with the cache, against the truth. */
+static void check(const body *a, const body *b)
+{
+    V(options) o = default_options();
+    V(result) r;
+    o.cache = &cache;
+    find_truth(&t, a, b, 1);
+    for (int k = 0; k < 4; k++) {
+        int meet = k % 2;
+        int status = meet ? V(intersect)(&a->shape, &b->shape, &o, &r) : V(distance)(&a->shape, &b->shape, &o, &r);
+        quad low = meet ? t.lower : positive(t.lower), high = meet ? t.upper : positive(t.upper);
+        if (!(status >= 0 && (quad)r.lower <= high && (quad)r.upper >= low)) {
+            print_error("%s: status %d, %.17g .. %.17g, truth %.17g\n  ", VARIANT, status, (double)r.lower,
+                        (double)r.upper, (double)t.lower);
+            print_case(stderr, meet ? "intersect" : "distance", a, b);
+            fail();
+        }
+        assert_true(cache.count <= DIM + 1);
+    }
+}
+
+#define ROUNDS 3000
+
+/* Handed from pair to pair, each at an address of its own: what it cannot see is only an edit in place. */
+static void of_other_pairs(void **state)
+{
+    static pair pairs[300];
+    (void)state;
+    start_cache();
+    for (uint64_t i = 0; i < 300; i++) {
+        draws d = draws_from(6, 0, i);
+        draw_pair(&d, (enum family)below(&d, FAMILIES), &pairs[i]);
+    }
+    for (uint64_t i = 0; i < ROUNDS; i++) {
+        draws d = draws_from(6, 6, i);
+        check(&pairs[below(&d, 300)].a, &pairs[below(&d, 300)].b);
+    }
+}
+
+/* The shapes at one address grow and shrink: their reach tells. */
+static void of_boxes_that_grow(void **state)
+{
+    (void)state;
+    start_cache();
+    for (uint64_t i = 0; i < ROUNDS; i++) {
+        draws d = draws_from(6, 1, i);
+        draw_box(&d, &p.a, 0.1, 1);
+        draw_box(&d, &p.b, 0.1, 1);
+        turn(&d, &p.a, 100);
+        scatter(&d, &p, 1);
+        bind_pair(&p);
+        check(&p.a, &p.b);
+    }
+}
+
+/* The two bodies change places, and one is swapped for another of the same kind. */
+static void of_bodies_in_other_places(void **state)
+{
+    static body boxes[6];
+    (void)state;
+    start_cache();
+    for (uint64_t i = 0; i < ROUNDS; i++) {
+        draws d = draws_from(6, 2, i);
+        body *a = &boxes[below(&d, 6)], *b = &boxes[below(&d, 6)];
+        double dir[DIM];
+        if (i == 0) {
+            for (int k = 0; k < 6; k++) {
+                draw_box(&d, &boxes[k], 0.1, 1);
+                if (k % 2) {
+                    memcpy(boxes[k].half, boxes[k - 1].half, sizeof boxes[k].half); /* twins */
+                }
+                bind(&boxes[k]);
+            }
+        }
+        turn(&d, a, 100);
+        unit(&d, dir);
+        memset(b->pose.p, 0, sizeof b->pose.p);
+        move(b, dir, between(&d, 0, 3));
+        check(a, b);
+    }
+}
+
+static void of_moved_bodies(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < ROUNDS; i++) {
+        draws d = draws_from(6, 3, i);
+        double dir[DIM];
+        draw_pair(&d, (enum family)(i % FAMILIES), &p);
+        start_cache();
+        for (int k = 0; k < 4; k++) {
+            check(&p.a, &p.b);
+            unit(&d, dir);
+            move(&p.b, dir, magnitude(&d, -8, 1));
+            if (below(&d, 2)) {
+                turn(&d, below(&d, 2) ? &p.a : &p.b, 100);
+            }
+            p.a.shape.radius = (real)(below(&d, 3) * 0.1);
+            bind(&p.a);
+        }
+    }
+}
+
+/* Never started, or trampled on; even with the right pointers and a count. */
+static void of_garbage(void **state)
+{
+    static const int fills[] = {0xff, 0x7f, 0x01, 0x80, 0x3f};
+    (void)state;
+    for (uint64_t i = 0; i < ROUNDS; i++) {
+        draws d = draws_from(6, 4, i);
+        draw_pair(&d, (enum family)(i % POLYTOPES), &p);
+        memset(&cache, fills[below(&d, 5)], sizeof cache);
+        if (i % 2) {
+            for (int k = 0; k < DIM + 1; k++) {
+                for (int j = 0; j < DIM; j++) {
+                    cache.a[k][j] = (real)(below(&d, 8) ? between(&d, -1, 1) : (double)NAN);
+                    cache.b[k][j] = (real)(below(&d, 8) ? between(&d, -1, 1) : (double)INFINITY);
+                }
+            }
+            cache.support[0] = p.a.shape.support;
+            cache.support[1] = p.b.shape.support;
+            cache.data[0] = p.a.shape.data;
+            cache.data[1] = p.b.shape.data;
+            cache.reach_a = (real)magnitude(&d, -3, 3);
+            cache.reach_b = (real)(below(&d, 2) ? magnitude(&d, -3, 3) : (double)NAN);
+            cache.count = (uint32_t)below(&d, DIM + 3);
+        }
+        if (i % 4 == 3) { /* the right reaches too, as after a query */
+            real dir[DIM] = {1}, x[DIM];
+            cache.reach_a = p.a.shape.support(p.a.shape.data, dir, x);
+            cache.reach_b = p.b.shape.support(p.b.shape.data, dir, x);
+        }
+        check(&p.a, &p.b);
+    }
+}
+
+/* A query that fails leaves a cache that still may be used. */
+static void after_errors(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 300; i++) {
+        draws d = draws_from(6, 5, i);
+        V(options) o = default_options();
+        V(result) r;
+        real kept;
+        draw_box(&d, &p.a, 0.1, 1);
+        draw_box(&d, &p.b, 0.1, 1);
+        scatter(&d, &p, 1);
+        bind_pair(&p);
+        start_cache();
+        o.cache = &cache;
+        check(&p.a, &p.b);
+        kept = p.b.set.box.half[0];
+        p.b.set.box.half[0] = (real)NAN;
+        assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, &o, &r), GJK_BAD_SUPPORT);
+        p.b.set.box.half[0] = kept;
+        check(&p.a, &p.b);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_other_pairs),
+        cmocka_unit_test(of_boxes_that_grow),
+        cmocka_unit_test(of_bodies_in_other_places),
+        cmocka_unit_test(of_moved_bodies),
+        cmocka_unit_test(of_garbage),
+        cmocka_unit_test(after_errors),
+    };
+    return cmocka_run_group_tests_name("caches of " VARIANT, tests, NULL, NULL);
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* The cases of tests/cases, whose truth was found in exact arithmetic by other code (tests/oracle). They judge the
+ * library, and also truth.h, which judges the library elsewhere. */
+#include "truth.h"
+
+#if VARIANT_DIM == 3 && !VARIANT_FLOAT
+#include "cases3.h"
+#define C(name) case3##name
+#define K(name) CASE3_##name
+#elif VARIANT_DIM == 3
+#include "cases3f.h"
+#define C(name) case3f##name
+#define K(name) CASE3F_##name
+#elif !VARIANT_FLOAT
+#include "cases2.h"
+#define C(name) case2##name
+#define K(name) CASE2_##name
+#else
+#include "cases2f.h"
+#define C(name) case2f##name
+#define K(name) CASE2F_##name
+#endif
+
+#define VALUE_ERROR 4.0 /* in u * scale */
+#define TELLS 100.0     /* in u * span: farther apart, intersect must say so */
+
+typedef C() test_case;
+typedef C(_shape) case_shape;
+
+static body bodies[16];
+static int bodies_used;
+
+static const body *body_of(const case_shape *s)
+{
+    body *b = &bodies[bodies_used++];
+    assert_true(bodies_used <= 16 && s->count <= MAX_POINTS);
+    start_body(b, s->kind == K(POINTS)     ? POINTS
+                  : s->kind == K(BOX)      ? BOX
+                  : s->kind == K(SEGMENT)  ? SEGMENT
+                  : s->kind == K(TRIANGLE) ? TRIANGLE
+                  : s->kind == K(BALL)     ? BALL
+                  : s->kind == K(CYLINDER) ? CYLINDER
+                  : s->kind == K(CONE)     ? CONE
+                  : s->kind == K(DISC)     ? DISC
+                  : s->kind == K(SUM)      ? SUM
+                  : s->kind == K(HULL)     ? HULL
+                                           : ORIGIN);
+    b->count = b->kind == POINTS ? (int)s->count : b->kind == SEGMENT ? 2 : b->kind == TRIANGLE ? 3 : 0;
+    memcpy(b->v, s->numbers, (size_t)b->count * sizeof b->v[0]);
+    if (b->kind == BOX) {
+        memcpy(b->half, s->numbers, sizeof b->half);
+    } else if (b->kind >= CYLINDER && b->kind <= BALL) {
+        b->radius = s->numbers[0];
+        b->half_length = b->kind <= CONE ? s->numbers[1] : 0;
+    } else if (b->kind >= SUM) {
+        b->part[0] = body_of(s->a);
+        b->part[1] = body_of(s->b);
+    }
+    if (s->pose) {
+        memcpy(b->pose.m, s->pose, sizeof b->pose.m);
+        memcpy(b->pose.p, s->pose + DIM * DIM, sizeof b->pose.p);
+    }
+    bind(b);
+    b->shape.radius = s->radius;
+    if (!s->pose) {
+        b->shape.pose = NULL;
+    }
+    return b;
+}
+
+/* As in brackets.c: what rounding scales with. */
+static double span_of(const body *b)
+{
+    real dir[DIM] = {1}, x[DIM];
+    double sum = 0, reach = (double)b->shape.support(b->shape.data, dir, x);
+    for (int i = 0; i < DIM * DIM; i++) {
+        sum += (double)b->pose.m[i] * (double)b->pose.m[i];
+    }
+    return sqrt(sum) * reach + (double)b->shape.radius;
+}
+
+static double span_of_pair(const body *a, const body *b)
+{
+    double sum = span_of(a) + span_of(b);
+    for (int i = 0; i < DIM; i++) {
+        sum += fabs((double)b->pose.p[i] - (double)a->pose.p[i]);
+    }
+    return sum;
+}
+
+static int failures;
+
+static void check(const test_case *c, int holds, const char *what, const V(result) * r)
+{
+    if (!holds) {
+        failures++;
+        print_error("%s: %s; distance %.17g .. %.17g, answer %d %.17g .. %.17g .. %.17g\n", c->id, what, c->lower_hi,
+                    c->upper_hi, r->status, (double)r->lower, (double)r->value, (double)r->upper);
+    }
+}
+
+static double max_error, max_round_error;
+
+static void one_case(const test_case *c, V(cache) * cache)
+{
+    static truth t;
+    const body *a, *b;
+    quad low = (quad)c->lower_hi + (quad)c->lower_lo, high = (quad)c->upper_hi + (quad)c->upper_lo, v, small;
+    double error, span;
+    int sharp;
+    V(options) o = default_options();
+    V(result) r;
+    memset(&r, 0, sizeof r);
+    o.cache = cache;
+    bodies_used = 0;
+    a = body_of(&c->a);
+    b = body_of(&c->b);
+    find_truth(&t, a, b, 1);
+    span = span_of_pair(a, b);
+    sharp = t.a.count && t.b.count;
+
+    small = ((quad)t.a.size + (quad)t.b.size) * (quad)1e-28;
+    check(c, positive(t.lower) <= high + small && positive(t.upper) >= low - small, "truth.h is wrong", &r);
+    check(c, !sharp || t.certified, "truth.h is not sure", &r);
+    check(c, c->relation != K(APART) || t.lower > 0 || !sharp, "truth.h does not see them apart", &r);
+    check(c, c->relation != K(OVERLAPPING) || t.upper < 0 || !sharp, "truth.h does not see them overlap", &r);
+
+    check(c, V(distance)(&a->shape, &b->shape, &o, &r) >= 0, "distance fails", &r);
+    v = (quad)r.value;
+    error = (double)((v > high ? v - high : v < low ? low - v : 0) / ((quad)U * t.scale + (quad)REAL_MIN));
+    check(c, (quad)r.lower <= high && (quad)r.upper >= low, "the bracket misses the truth", &r);
+    check(c, r.lower <= r.value && r.value <= r.upper, "the value is outside its bracket", &r);
+    check(c, !sharp || error <= VALUE_ERROR, "the value is off", &r);
+    max_error = sharp ? fmax(max_error, error) : max_error;
+    max_round_error = sharp ? max_round_error : fmax(max_round_error, error);
+
+    check(c, V(intersect)(&a->shape, &b->shape, &o, &r) >= 0, "intersect fails", &r);
+    check(c, !(r.lower > 0) || c->relation == K(APART), "wrongly called apart", &r);
+    check(c, !(r.upper < 0) || c->relation == K(OVERLAPPING), "wrongly called overlapping", &r);
+    check(c, (quad)r.lower <= high, "lower is above the truth", &r);
+    check(c, r.lower > 0 || (double)low <= TELLS * U * span, "not seen to be apart", &r);
+    check(c, r.upper < 0 || (double)-t.upper <= TELLS * U * span, "not seen to overlap", &r);
+}
+
+static void cold(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < C(_count); i++) {
+        one_case(&C(_all)[i], NULL);
+    }
+    printf("%-6s %zu cases: error at most %.2f u * scale for polytopes, %.2f for round shapes\n", VARIANT, C(_count),
+           max_error, max_round_error);
+    assert_true(C(_count) > 100);
+    assert_int_equal(failures, 0);
+}
+
+/* The cache of each case handed on to the next. */
+static void warm(void **state)
+{
+    V(cache) cache;
+    (void)state;
+    memset(&cache, 0, sizeof cache);
+    for (size_t i = 0; i < C(_count); i++) {
+        one_case(&C(_all)[i], &cache);
+        one_case(&C(_all)[i], &cache);
+    }
+    assert_int_equal(failures, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cold), cmocka_unit_test(warm)};
+    return cmocka_run_group_tests_name("cases of " VARIANT, tests, NULL, NULL);
+}

@@ -1,0 +1,62 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Sets up and passes every test, on a bare Debian 12 or wherever the tools below are present already.
+# As root it installs what is missing by apt-get; otherwise it says what that is, and stops.
+set -eu
+cd "$(dirname "$0")/.."
+
+say() { printf '\n== %s\n' "$*"; }
+
+missing=
+need() { # PACKAGE COMMAND...: the package is there when the command succeeds
+    package=$1
+    shift
+    "$@" >/dev/null 2>&1 || missing="$missing $package"
+}
+look() {
+    missing=
+    need gcc command -v gcc
+    need g++ command -v g++
+    need make command -v make
+    need cmake cmake --list-presets # 3.25 or later
+    need clang clang++ --version
+    need clang-format command -v clang-format
+    need pkg-config command -v pkg-config
+    need libcmocka-dev pkg-config --exists cmocka
+    need python3-venv python3 -c 'import ensurepip, venv'
+    need python3-dev python3 -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")'
+}
+
+say 'Looking for the tools'
+look
+if [ -n "$missing" ]; then
+    echo "missing:$missing"
+    if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null; then
+        echo 'install these, or run this as root on Debian'
+        exit 1
+    fi
+    apt-get update -q
+    # shellcheck disable=SC2086 # one word for each package
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+    look
+    [ -z "$missing" ] || { echo "still missing:$missing"; exit 1; }
+fi
+
+CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
+CTEST_PARALLEL_LEVEL=$CMAKE_BUILD_PARALLEL_LEVEL
+export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL
+for preset in release clang asan-ubsan; do
+    say "C: $preset"
+    cmake --workflow --preset $preset
+done
+
+say 'Python: setting up'
+python3 -m venv build/venv
+build/venv/bin/pip install -q './bindings/python[test]'
+
+for tests in bindings/python/tests tests/oracle; do # one run each: pytest takes its settings from beside the tests
+    say "Python: $tests"
+    build/venv/bin/python -m pytest -q "$tests"
+done
+
+say 'All tests passed'

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: MIT */
+/* Each ready-made support against its formula in 113 bits: a farthest point, of the set, within the reach. */
+#include "pairs.h"
+#include "sets.h"
+
+/* What the contract lets a support be off by, in units of roundoff times its reach. */
+#define LICENCE 8
+
+/* Directions of all kinds, of any size whose products with the sets' sizes stay within the format; n counts up from 0.
+ */
+static void draw_direction(draws *d, int n, real dir[DIM])
+{
+    static const double sizes[] = {1, 1e-9, 1e9, sizeof(real) == 8 ? 1e-250 : 1e-25, sizeof(real) == 8 ? 1e250 : 1e25};
+    double x[DIM], size = sizes[below(d, 5)];
+    int zero = 0;
+    unit(d, x);
+    for (int i = 0; i < DIM; i++) {
+        if (n % 3 == 0) {
+            x[i] = below(d, 3) - 1; /* axes, diagonals and ties */
+        } else if (n % 3 == 1 && below(d, 3) == 0) {
+            x[i] *= magnitude(d, -9, 0);
+        }
+        dir[i] = (real)(x[i] * size);
+        zero += dir[i] == 0;
+    }
+    if (zero == DIM) {
+        dir[below(d, DIM)] = (real)(below(d, 2) ? size : -size);
+    }
+}
+
+/* Scaled to size 1, which changes no farthest point and keeps the formulas within their range. */
+static void quad_direction(const real *dir, quad *out)
+{
+    quad most = 0;
+    for (int i = 0; i < DIM; i++) {
+        most = quad_abs((quad)dir[i]) > most ? quad_abs((quad)dir[i]) : most;
+    }
+    for (int i = 0; i < DIM; i++) {
+        out[i] = (quad)dir[i] / most;
+    }
+}
+
+/* A point of each set that lies nearest to x tells whether x is in it; here, how far out of it x is. */
+static quad outside(const body *b, const quad *x)
+{
+    quad flat = DIM == 3 ? quad_sqrt(x[0] * x[0] + x[1] * x[1]) : 0, r = (quad)b->radius, h = (quad)b->half_length;
+    quad z = x[DIM - 1], off = 0;
+    switch (b->kind) {
+    case BALL:
+        return positive(norm(x) - r);
+    case DISC:
+        return positive(flat - r) + quad_abs(z);
+    case CYLINDER:
+        return positive(flat - r) + positive(quad_abs(z) - h);
+    case CONE:
+        off = h > 0 ? flat - r * (h - z) / (2 * h) : flat - r;
+        return positive(off) + positive(quad_abs(z) - h);
+    default:
+        return 0; /* farthest along dir, and one of finitely many: see is_vertex */
+    }
+}
+
+static int is_vertex(const body *b, const quad *x)
+{
+    quad v[MAX_VERTICES][DIM];
+    int n = list_vertices(b, v), found = n == 0;
+    for (int k = 0; k < n; k++) {
+        int same = 1;
+        for (int i = 0; i < DIM; i++) {
+            same &= v[k][i] == x[i];
+        }
+        found |= same;
+    }
+    return found;
+}
+
+/* unit: by what everything is divided before the formulas are asked, so that they stay within their range. */
+static void check_direction(const body *b, const real *dir, double unit_of, real *reach_before)
+{
+    real point[DIM], reach = b->shape.support(b->shape.data, dir, point);
+    body small = *b;
+    quad d[DIM], x[DIM], best[DIM], length, short_by = 0, r = (quad)reach / (quad)unit_of;
+    quad licence = r * LICENCE * (quad)U + 8 * (quad)REAL_MIN * (quad)REAL_EPSILON / (quad)unit_of;
+    assert_true(reach >= 0 && reach <= REAL_MAX);
+    assert_true(*reach_before == -1 || reach == *reach_before);
+    *reach_before = reach;
+    for (int k = 0; k < MAX_POINTS; k++) {
+        for (int i = 0; i < DIM; i++) {
+            small.v[k][i] = (real)((double)b->v[k][i] / unit_of);
+        }
+    }
+    for (int i = 0; i < DIM; i++) {
+        small.half[i] = (real)((double)b->half[i] / unit_of);
+        x[i] = (quad)point[i] / (quad)unit_of;
+    }
+    small.radius = (real)((double)b->radius / unit_of);
+    small.half_length = (real)((double)b->half_length / unit_of);
+    quad_direction(dir, d);
+    length = norm(d);
+    farthest_of_set(&small, d, best);
+    for (int i = 0; i < DIM; i++) {
+        short_by += d[i] * (best[i] - x[i]) / length;
+    }
+    if (!(short_by <= licence && norm(x) <= r && norm(best) <= r && outside(&small, x) <= licence)) {
+        print_error("short by %g, out by %g, reach %g, length %g; dir", (double)(short_by / (r * (quad)U)),
+                    (double)(outside(&small, x) / (r * (quad)U)), (double)r, (double)norm(x));
+        print_numbers(stderr, dir, DIM);
+        print_error("\n  ");
+        print_body(stderr, b);
+        fail();
+    }
+    if (b->kind != SUM && b->kind != HULL) {
+        assert_true(is_vertex(&small, x));
+    }
+}
+
+static void draw_set(draws *d, enum kind kind, body *b)
+{
+    static const double ratio[] = {0, 1e-6, 0.5, 1, 1};
+    start_body(b, kind);
+    b->count = kind == POINTS ? 1 + below(d, MOST_POINTS) : kind == SEGMENT ? 2 : kind == TRIANGLE ? 3 : 0;
+    for (int k = 0; k < b->count; k++) {
+        double x[DIM];
+        unit(d, x);
+        for (int i = 0; i < DIM; i++) {
+            b->v[k][i] = (real)(x[i] * ratio[below(d, 5)]);
+        }
+    }
+    for (int i = 0; i < DIM; i++) {
+        b->half[i] = (real)(between(d, 0.1, 1) * ratio[below(d, 5)]);
+    }
+    b->radius = (real)(between(d, 0.1, 1) * ratio[below(d, 5)]);
+    b->half_length = (real)(between(d, 0.1, 1) * ratio[below(d, 5)]);
+}
+
+static void check_kind(enum kind kind)
+{
+    const int most = sizeof(real) == 8 ? 990 : 115;
+    for (uint64_t i = 0; i < 3000; i++) {
+        draws d = draws_from(3, (uint64_t)kind, i);
+        body b;
+        real dir[DIM], reach = -1;
+        double by = ldexp(1, i % 2 ? 0 : below(&d, 2 * most + 1) - most);
+        draw_set(&d, kind, &b);
+        scale_body(&b, by);
+        bind(&b);
+        for (int n = 0; n < 12; n++) {
+            draw_direction(&d, n, dir);
+            if (by != 1) { /* one thing at a time: a direction of size 1 */
+                real top = 0;
+                for (int k = 0; k < DIM; k++) {
+                    top = (real)fmax((double)top, fabs((double)dir[k]));
+                }
+                for (int k = 0; k < DIM; k++) {
+                    dir[k] /= top;
+                }
+            }
+            check_direction(&b, dir, by, &reach);
+        }
+    }
+}
+
+#define KIND(name, kind)                                                                                               \
+    static void name(void **state)                                                                                     \
+    {                                                                                                                  \
+        (void)state;                                                                                                   \
+        check_kind(kind);                                                                                              \
+    }
+KIND(points, POINTS)
+KIND(box, BOX)
+KIND(segment, SEGMENT)
+KIND(ball, BALL)
+#if DIM == 3
+KIND(triangle, TRIANGLE)
+KIND(cylinder, CYLINDER)
+KIND(cone, CONE)
+KIND(disc, DISC)
+#endif
+
+static void origin(void **state)
+{
+    real dir[DIM] = {1}, point[DIM];
+    (void)state;
+    memset(point, 0x5a, sizeof point);
+    assert_true(V(support_origin)(NULL, dir, point) >= 0);
+    for (int i = 0; i < DIM; i++) {
+        assert_true(point[i] == 0);
+    }
+}
+
+/* Parts turned, moved, stretched, flattened, rounded. */
+static void couples(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 6000; i++) {
+        draws d = draws_from(4, 0, i);
+        body b, part[2];
+        real dir[DIM], reach = -1;
+        draw_couple(&d, &b, part, 0);
+        if (below(&d, 3) == 0) {
+            draw_affine(&d, &part[0]);
+        }
+        for (int k = 0; k < 2; k++) {
+            b.part[k] = &part[k];
+            bind(&part[k]);
+        }
+        bind(&b);
+        for (int n = 0; n < 12; n++) {
+            draw_direction(&d, n, dir);
+            check_direction(&b, dir, 1, &reach);
+        }
+    }
+}
+
+/* A couple of couples, and the reach of a couple where a part does not know its own. */
+static void nested_couples(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 2000; i++) {
+        draws d = draws_from(4, 1, i);
+        body top, mid[2], part[4];
+        real dir[DIM], point[DIM], reach = -1;
+        start_body(&top, below(&d, 2) ? SUM : HULL);
+        for (int k = 0; k < 2; k++) {
+            draw_couple(&d, &mid[k], part + 2 * k, 0);
+            for (int j = 0; j < 2; j++) {
+                mid[k].part[j] = &part[2 * k + j];
+                bind(&part[2 * k + j]);
+            }
+            bind(&mid[k]);
+            top.part[k] = &mid[k];
+        }
+        bind(&top);
+        for (int n = 0; n < 12; n++) {
+            draw_direction(&d, n, dir);
+            check_direction(&top, dir, 1, &reach);
+        }
+        if (part[0].kind == POINTS) {
+            part[0].set.points.reach = 0;
+            assert_true(top.shape.support(top.shape.data, dir, point) == 0);
+        }
+    }
+}
+
+/* The reach found once, rounded up but little. */
+static void cloud_reaches(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 5000; i++) {
+        draws d = draws_from(5, 0, i);
+        body b;
+        quad most = 0;
+        int exponent = below(&d, sizeof(real) == 8 ? 1980 : 230) - (sizeof(real) == 8 ? 990 : 115);
+        draw_set(&d, POINTS, &b);
+        b.v[0][0] = 1;
+        for (int k = 0; k < b.count; k++) {
+            quad x[DIM], length;
+            for (int j = 0; j < DIM; j++) {
+                x[j] = (quad)b.v[k][j];
+            }
+            length = norm(x);
+            most = length > most ? length : most;
+        }
+        scale_body(&b, ldexp(1, exponent));
+        bind(&b);
+        assert_true((quad)b.set.points.reach / (quad)ldexp(1, exponent) >= most);
+        assert_true(((quad)b.set.points.reach - (quad)REAL_MIN) / (quad)ldexp(1, exponent) <=
+                    most * (1 + 64 * (quad)U));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points),
+        cmocka_unit_test(box),
+        cmocka_unit_test(segment),
+        cmocka_unit_test(ball),
+        cmocka_unit_test(origin),
+#if DIM == 3
+        cmocka_unit_test(triangle),
+        cmocka_unit_test(cylinder),
+        cmocka_unit_test(cone),
+        cmocka_unit_test(disc),
+#endif
+        cmocka_unit_test(couples),
+        cmocka_unit_test(nested_couples),
+        cmocka_unit_test(cloud_reaches),
+    };
+    return cmocka_run_group_tests_name("shapes of " VARIANT, tests, NULL, NULL);
+}
