@@ -255,7 +255,9 @@ static void measure(tally *s, const V(result) * r)
     }
 }
 
-/* An earlier pair's cache, handed from pair to pair. */
+/* An earlier pair's cache, handed from pair to pair. What it cannot see is an edit in place, so each pair in turn has
+ * another place, and where the cache still speaks of an earlier pair there, its count is set to 0 as its contract says.
+ */
 static V(cache) stale;
 
 static V(options) draw_options(draws *d, V(cache) * own, const V(result) * first)
@@ -314,7 +316,7 @@ static real loose_support(const void *data, const real *dir, real *point)
 
 /* What is declared in options.slack, and the roundings that every support may make, widen the bracket and no more. The
  * truth stays that of the exact sets. */
-static void one_loose_pair(tally *s, draws *d, pair *p)
+static void one_loose_pair(draws *d, const pair *p)
 {
     static const double offs[] = {0, -7, 7, 7, -7}; /* the point's own rounding makes it 8 */
     loose a = {p->a.shape, 0, offs[below(d, 5)]}, b = {p->b.shape, 0, offs[below(d, 5)]};
@@ -343,47 +345,51 @@ static void one_loose_pair(tally *s, draws *d, pair *p)
 static void one_pair(tally *s, long index)
 {
     draws d = draws_from(seed, (uint64_t)s->family, (uint64_t)index);
-    static pair p;
+    static pair places[8];
     static truth t;
+    pair *p = &places[index % 8];
     V(result) r, first;
     V(cache) own;
     int status;
     memset(&own, 0, sizeof own);
-    draw_pair(&d, s->family, &p);
-    find_truth(&t, &p.a, &p.b, 1);
+    draw_pair(&d, s->family, p);
+    if (stale.data[0] == &p->a.set || stale.data[1] == &p->b.set) {
+        stale.count = 0;
+    }
+    find_truth(&t, &p->a, &p->b, 1);
     s->pairs++;
     s->apart += t.lower > 0;
     s->meeting += t.upper < 0;
     s->uncertified += t.a.count && t.b.count && !t.certified;
-    now.pair = &p;
+    now.pair = p;
     now.truth = &t;
-    now.span = span_of_pair(&p);
+    now.span = span_of_pair(p);
     now.tally = s;
     now.index = index;
 
     now.query = "distance";
     now.options = default_options();
     memset(&first, 0, sizeof first);
-    status = V(distance)(&p.a.shape, &p.b.shape, index % 2 ? &now.options : NULL, &first);
+    status = V(distance)(&p->a.shape, &p->b.shape, index % 2 ? &now.options : NULL, &first);
     check_distance(&first, status);
     measure(s, &first);
     for (int k = 0; k < 2; k++) {
         now.options = draw_options(&d, &own, &first);
         r = first;
-        status = V(distance)(&p.a.shape, &p.b.shape, &now.options, &r);
+        status = V(distance)(&p->a.shape, &p->b.shape, &now.options, &r);
         check_distance(&r, status);
     }
 
     now.query = "intersect";
     now.options = default_options();
     memset(&r, 0, sizeof r);
-    status = V(intersect)(&p.a.shape, &p.b.shape, NULL, &r);
+    status = V(intersect)(&p->a.shape, &p->b.shape, NULL, &r);
     check_intersect(&r, status);
     now.options = draw_options(&d, &own, &first);
-    status = V(intersect)(&p.a.shape, &p.b.shape, &now.options, &r);
+    status = V(intersect)(&p->a.shape, &p->b.shape, &now.options, &r);
     check_intersect(&r, status);
     if (s->family < RATIOS && s->family != SLIVERS) { /* turned and moved only: slack keeps its size */
-        one_loose_pair(s, &d, &p);
+        one_loose_pair(&d, p);
     }
 }
 

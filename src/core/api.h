@@ -35,7 +35,8 @@ static int read_options(options *o, const options *given)
     }
     if (o->max_steps == 0) o->max_steps = 256;
     if (o->max_steps > INT32_MAX / 4) o->max_steps = INT32_MAX / 4;
-    return o->abs_tol >= 0 && o->rel_tol >= 0 && o->cutoff >= 0 && o->slack >= 0 && o->slack <= REAL_MAX &&
+    return o->abs_tol >= 0 && o->rel_tol >= 0 && o->cutoff >= 0 && o->slack >= 0 && bounded(o->abs_tol) &&
+           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) &&
            o->reserved == NULL;
 }
 
@@ -131,7 +132,8 @@ static void describe(result *r, const search *q, const real weight[], const shap
         real share = a->radius > 0 ? a->radius / (a->radius + b->radius) : 0;
         on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
     } else if (a->radius > 0 || b->radius > 0) {
-        vec toward_b = q->vv > 0 ? mul(q->v, -1 / root(q->vv)) : q->normal;
+        vec way = blend(&q->s, weight, offsetof(vertex, w));
+        vec toward_b = dot(way, way) > 0 ? mul(way, -1 / length(way)) : q->normal;
         on_a = add(on_a, mul(toward_b, a->radius));
         on_b = sub(on_b, mul(toward_b, b->radius));
     }

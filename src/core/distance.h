@@ -50,6 +50,9 @@ typedef struct search {
     unsigned borrowed;   /* slots that still hold them */
 } search;
 
+/* |v| is below half a rounding of the frame, which is of size 1 to 4: it has no direction. */
+static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
+
 /* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. In a narrow
  * simplex they are coarse, and their corner off v by a slip across it; what the slip says of them is taken back. */
 static real certify(const search *q, real weight[DIM + 1])
@@ -103,11 +106,9 @@ static int sharpen(search *q)
     vec low;
     certify(q, weight);
     vec high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low));
-    real vv = dot(v, v);
-    if (!(vv > UNIT * UNIT * UNIT * UNIT)) return 0;
     q->v = v;
-    q->vv = vv;
-    return 1;
+    q->vv = dot(v, v);
+    return !vanished(q);
 }
 
 /* |v| as near as one number can say it, measured along v: what the weights are off moves the corner that they single out
@@ -171,9 +172,6 @@ static inline int advance(search *q)
     return 1;
 }
 
-/* |v| is below half a rounding of the frame, which is of size 1 to 4: it has no direction. */
-static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
-
 /* A full simplex that holds the origin, but so narrow that rounding may have put it there, is searched on from the face
  * that the origin is nearest to. */
 static int flatten(search *q)
@@ -208,7 +206,8 @@ static inline enum end consider(search *q, const goal *g)
     if (!g->early) return OPEN;
     real upper = root(q->vv) + q->d.doubt;
     if (upper < g->within && certify(q, weight) < g->within) return WITHIN;
-    return upper - q->lower <= g->abs_tol + g->rel_tol * (upper - g->radius) ? CLOSE : OPEN;
+    real asked = g->abs_tol + g->rel_tol * (upper - g->radius) - 16 * UNIT * (upper + g->radius); /* and the radius taken off */
+    return upper - q->lower <= asked && certify(q, weight) - q->lower <= asked ? CLOSE : OPEN;
 }
 
 /* p was handed out just now. If it is one of the lender's, to the bit, the sets are still those that it knew. */

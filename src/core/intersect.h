@@ -38,7 +38,7 @@ static void move(search *q, vec t)
 static enum end probe(search *q, int max_steps, real *upper)
 {
     search p = *q;
-    real ball = 4 * q->d.doubt, weight[DIM + 1], reach[2];
+    real ball = 2 * q->d.doubt, weight[DIM + 1], reach[2];
     goal g = {0, (real)0.75 * ball, 0, -1, 0, 1, max_steps};
     enum end end = WITHIN;
     for (int k = 0; k <= DIM && end == WITHIN; k++) {
