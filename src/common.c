@@ -2,10 +2,7 @@
 /* What belongs to no variant. */
 #include "../include/gjk/common.h"
 
-uint32_t gjk_version(void)
-{
-    return GJK_VERSION_MAJOR * 10000u + GJK_VERSION_MINOR * 100u + GJK_VERSION_PATCH;
-}
+uint32_t gjk_version(void) { return GJK_VERSION_MAJOR * 10000u + GJK_VERSION_MINOR * 100u + GJK_VERSION_PATCH; }
 
 const char *gjk_status_name(int status)
 {

@@ -52,9 +52,9 @@ done
 
 say 'Python: setting up'
 python3 -m venv build/venv
-build/venv/bin/pip install -q './bindings/python[test]'
+build/venv/bin/pip install -q './bindings/python[test]' -r examples/requirements.txt
 
-for tests in bindings/python/tests tests/oracle; do # one run each: pytest takes its settings from beside the tests
+for tests in bindings/python/tests tests/oracle examples; do # one run each: pytest takes its settings from beside the tests
     say "Python: $tests"
     build/venv/bin/python -m pytest -q "$tests"
 done

@@ -121,13 +121,13 @@ static int N(project)(const N(corner) * s, const int *pick, int count, T *weight
     return 1;
 }
 
-/* Shrinks the simplex to the face whose point lies nearest to the origin; on a tie to the largest such face, whose
- * normal is the most trustworthy. Returns that distance. */
-static T N(nearest)(N(slow) * r)
+/* Shrinks the simplex to the face whose point lies nearest to the origin; on a tie, to within rounding, to the largest
+ * such face, whose normal is the most trustworthy. Returns that distance. */
+static T N(nearest)(N(slow) * r, T size)
 {
     T best = -1;
     int best_pick[DIM + 1] = {0}, best_count = 0;
-    for (int size = 1; size <= r->count; size++) {
+    for (int corners = 1; corners <= r->count; corners++) {
         for (int mask = 1; mask < 1 << r->count; mask++) {
             int pick[DIM + 1], count = 0;
             T weight[DIM + 1], length, normal[DIM];
@@ -136,10 +136,10 @@ static T N(nearest)(N(slow) * r)
                     pick[count++] = i;
                 }
             }
-            if (count != size || !N(project)(r->s, pick, count, weight, &length, normal)) {
+            if (count != corners || !N(project)(r->s, pick, count, weight, &length, normal)) {
                 continue;
             }
-            if (best < 0 || length <= best + best * (T)1e-20) {
+            if (best < 0 || length <= best + size * (T)ENOUGH / 10000) {
                 best = length;
                 best_count = count;
                 memcpy(best_pick, pick, sizeof pick);
@@ -167,7 +167,7 @@ static void N(solve)(const view *a, const view *b, T size, int max_steps, N(slow
     }
     for (int step = 0; step < max_steps; step++) {
         N(corner) c;
-        T reach, length = N(nearest)(r);
+        T reach, length = N(nearest)(r, size);
         int seen = 0;
         r->upper = length < r->upper ? length : r->upper;
         if (r->count > DIM || length <= size * (T)ENOUGH / 16) {
@@ -184,7 +184,7 @@ static void N(solve)(const view *a, const view *b, T size, int max_steps, N(slow
         }
         r->s[r->count++] = c;
     }
-    N(nearest)(r);
+    N(nearest)(r, size);
 }
 
 #undef T

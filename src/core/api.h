@@ -36,8 +36,7 @@ static int read_options(options *o, const options *given)
     if (o->max_steps == 0) o->max_steps = 256;
     if (o->max_steps > INT32_MAX / 4) o->max_steps = INT32_MAX / 4;
     return o->abs_tol >= 0 && o->rel_tol >= 0 && o->cutoff >= 0 && o->slack >= 0 && bounded(o->abs_tol) &&
-           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) &&
-           o->reserved == NULL;
+           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) && o->reserved == NULL;
 }
 
 /* What a later query of this pair may start from. */
@@ -76,9 +75,10 @@ static goal scaled(const goal *g, real scale)
     return r;
 }
 
-/* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation; FAULT
- * also where the bounds cross, which points of two convex sets never do. */
-static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, real *upper, real weight[])
+/* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation;
+ * FAULT also where the bounds cross, which points of two convex sets never do. */
+static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, real *upper,
+                    real weight[])
 {
     int warm = o->cache != NULL;
     enum end end;
@@ -102,8 +102,8 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
     return end;
 }
 
-/* Where the search has come to its end on contact, and the bracket of the cores straddles it, finds out on which side they are, if rounding
- * allows. 0: a support's answer was none. */
+/* Where the search has come to its end on contact, and the bracket of the cores straddles it, finds out on which side
+ * they are, if rounding allows. 0: a support's answer was none. */
 static int tell(search *q, const goal *g, real *upper, enum end *end)
 {
     if ((*end != STILL && *end != INSIDE) || q->lower > 0 || *upper < 0 || *upper < g->within * q->d.scale) return 1;
@@ -122,23 +122,29 @@ static void bracket(result *r, const difference *d, real lower, real upper, real
     r->upper = far - radius + doubt_far + tiny;
 }
 
-/* All but value and bracket. */
-static void describe(result *r, const search *q, const real weight[], const shape *a, const shape *b, int meeting)
+/* The witnesses, from the cores' to the shapes': each moves toward the other by its radius, or, where the radii reach
+ * across, both move to one point between. */
+static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b, int meeting)
 {
     vec on_a = blend(&q->s, weight, offsetof(vertex, x)), on_b = blend(&q->s, weight, offsetof(vertex, y));
+    vec way = blend(&q->s, weight, offsetof(vertex, w));
+    real l = length(way), radius = a->radius + b->radius;
     if (a->pose) on_a = add(map(a->pose->m, on_a), load(a->pose->p));
     if (b->pose) on_b = add(map(b->pose->m, on_b), load(b->pose->p));
-    if (meeting) { /* one point between the cores' that is in both shapes */
-        real share = a->radius > 0 ? a->radius / (a->radius + b->radius) : 0;
+    if (meeting || l * q->d.unscale < radius) {
+        real share = a->radius > 0 ? a->radius / radius : 0;
         on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
-    } else if (a->radius > 0 || b->radius > 0) {
-        vec way = blend(&q->s, weight, offsetof(vertex, w));
-        vec toward_b = dot(way, way) > 0 ? mul(way, -1 / length(way)) : q->normal;
+    } else if (radius > 0) {
+        vec toward_b = l > 0 ? mul(way, -1 / l) : q->normal;
         on_a = add(on_a, mul(toward_b, a->radius));
         on_b = sub(on_b, mul(toward_b, b->radius));
     }
     store(r->point_a, on_a);
     store(r->point_b, on_b);
+}
+
+static void account(result *r, const search *q)
+{
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;
@@ -174,7 +180,8 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(refine(&q, weight) * q.d.unscale - radius, r.lower), r.upper);
-    describe(&r, &q, weight, a, b, meeting);
+    witness(&r, &q, weight, a, b, meeting);
+    account(&r, &q);
     real rounding = (4 * q.d.doubt + 2 * q.d.slack) * q.d.unscale + 16 * UNIT * radius;
     r.status = distance_status(&r, &o, end, rounding);
     *out = r;
@@ -195,7 +202,8 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;
     bracket(&r, &q.d, q.lower, upper, radius);
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
-    describe(&r, &q, weight, a, b, r.upper < 0);
+    witness(&r, &q, weight, a, b, r.upper < 0);
+    account(&r, &q);
     r.status = r.value != 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;
     return r.status;

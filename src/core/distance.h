@@ -4,7 +4,8 @@
  * v is the point of the simplex nearest the origin; the next corner is the one that lies least along v. Of the signed
  * separation of the two sets (distance apart, minus depth overlapping) this proves
  *     from below: the corner's height v.w / |v|, for any v at all,
- *     from above: the length of any convex combination of corners; minus the room around the origin inside a full simplex.
+ *     from above: the length of any convex combination of corners; minus the room around the origin inside a full
+ * simplex.
  *
  * It ends: each step either raises the steps' count to its limit, or finds |v| smaller than ever before, or stops. */
 #ifndef GJK_CORE_DISTANCE_H
@@ -39,11 +40,11 @@ typedef struct search {
     difference d;
     simplex s;
     vec v;
-    real vv;      /* v.v; REAL_MAX before there is a simplex */
-    real lower;   /* of the signed separation */
-    vec normal;   /* unit, from A to B: where lower was found */
-    int pending;  /* s's spare slot holds a corner that was asked for and not taken in */
-    int repeated; /* because it stood in the simplex already */
+    real vv;       /* v.v; REAL_MAX before there is a simplex */
+    real lower;    /* of the signed separation */
+    vec normal;    /* unit, from A to B: where lower was found */
+    int pending;   /* s's spare slot holds a corner that was asked for and not taken in */
+    int repeated;  /* because it stood in the simplex already */
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
@@ -97,9 +98,9 @@ static vec single_out(const search *q, const real weight[DIM + 1], vec *low)
     return high;
 }
 
-/* v to all its digits. Its error is that of the corners, a rounding of their size; near contact v is smaller still, and its
- * direction noise. Worked out from the corner that the weights single out, and once more made square to the simplex, it is
- * as good as the edges are. 0 where it vanishes. */
+/* v to all its digits. Its error is that of the corners, a rounding of their size; near contact v is smaller still, and
+ * its direction noise. Worked out from the corner that the weights single out, and once more made square to the
+ * simplex, it is as good as the edges are. 0 where it vanishes. */
 static int sharpen(search *q)
 {
     real weight[DIM + 1];
@@ -111,8 +112,8 @@ static int sharpen(search *q)
     return !vanished(q);
 }
 
-/* |v| as near as one number can say it, measured along v: what the weights are off moves the corner that they single out
- * across v, and so counts for nothing. */
+/* |v| as near as one number can say it, measured along v: what the weights are off moves the corner that they single
+ * out across v, and so counts for nothing. */
 static real refine(const search *q, const real weight[DIM + 1])
 {
     vec w_low, w = single_out(q, weight, &w_low);
@@ -141,9 +142,9 @@ static inline void raise(search *q, vec v, vec w)
 
 static int repeats(const vertex *p, const vertex *q) { return same(p->x, q->x) & same(p->y, q->y); }
 
-/* Takes the corner in the spare slot into the simplex. 0, and nothing changed, where that brings v no nearer. Near contact
- * |v| is noise of a rounding of the corners, while their gap may still promise more than that: up to SIDESTEPS times in a
- * query, v may stay where it is to within that noise. */
+/* Takes the corner in the spare slot into the simplex. 0, and nothing changed, where that brings v no nearer. Near
+ * contact |v| is noise of a rounding of the corners, while their gap may still promise more than that: up to SIDESTEPS
+ * times in a query, v may stay where it is to within that noise. */
 static inline int advance(search *q)
 {
     simplex *s = &q->s;
@@ -153,7 +154,7 @@ static inline int advance(search *q)
     s->n = n + 1;
     vec v = nearest(s);
     real vv = dot(v, v);
-    if (!(vv < q->vv)) { /* once more without assumptions */
+    if (!(vv < q->vv)) {                      /* once more without assumptions */
         real noise = 16 * UNIT * root(q->vv); /* of corners in a frame of size 1 to 4 */
         memcpy(s->at, at, sizeof at);
         s->n = n + 1;
@@ -206,7 +207,8 @@ static inline enum end consider(search *q, const goal *g)
     if (!g->early) return OPEN;
     real upper = root(q->vv) + q->d.doubt;
     if (upper < g->within && certify(q, weight) < g->within) return WITHIN;
-    real asked = g->abs_tol + g->rel_tol * (upper - g->radius) - 16 * UNIT * (upper + g->radius); /* and the radius taken off */
+    real asked =
+        g->abs_tol + g->rel_tol * (upper - g->radius) - 16 * UNIT * (upper + g->radius); /* and the radius taken off */
     return upper - q->lower <= asked && certify(q, weight) - q->lower <= asked ? CLOSE : OPEN;
 }
 
@@ -287,9 +289,9 @@ static int open_cold(search *q, const shape *a, const shape *b, real slack)
     return meet(&q->d, q->v, slack, spare(&q->s));
 }
 
-/* From the points of the last query, as corners on trust: they are points of these sets only if the sets still answer as
- * they did. The search ends well if no borrowed corner is left in its simplex, or if one of the lender's points was handed
- * out again, to the bit; see settled. The first call also tells whether the reaches are the same. */
+/* From the points of the last query, as corners on trust: they are points of these sets only if the sets still answer
+ * as they did. The search ends well if no borrowed corner is left in its simplex, or if one of the lender's points was
+ * handed out again, to the bit; see settled. The first call also tells whether the reaches are the same. */
 static int open_warm(search *q, const shape *a, const shape *b, real slack, const cache *k)
 {
     real reach[2];
@@ -329,8 +331,8 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     return q->repeated;
 }
 
-/* Whether the simplex's corners are points of the sets for certain. Where none of the lender's points came back by itself,
- * one more corner is asked for, along v tilted a little toward one of them. */
+/* Whether the simplex's corners are points of the sets for certain. Where none of the lender's points came back by
+ * itself, one more corner is asked for, along v tilted a little toward one of them. */
 static int settled(search *q)
 {
     real reach[2];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Error-free sums and products: what rounding takes away, as a number (Dekker 1971, Knuth). Exact where nothing over- or
- * underflows. Without fused multiply-add, which not every machine has: the bits are the same either way. */
+/* Error-free sums and products: what rounding takes away, as a number (Dekker 1971, Knuth). Exact where nothing over-
+ * or underflows. Without fused multiply-add, which not every machine has: the bits are the same either way. */
 #ifndef GJK_CORE_EXACT_H
 #define GJK_CORE_EXACT_H
 

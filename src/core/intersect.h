@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Overlap where the search ends on its origin, or with it inside a simplex too thin to say: a ball around the origin is
- * in A - B if the corners of a simplex around that ball are. So each of these corners in turn is the origin of a search;
- * all come within a share of the ball's radius, and the sets overlap for certain; or one is proven to be outside, and
- * the sets are as good as touching. No face is ever asked for its side. */
+ * in A - B if the corners of a simplex around that ball are. So each of these corners in turn is the origin of a
+ * search; all come within a share of the ball's radius, and the sets overlap for certain; or one is proven to be
+ * outside, and the sets are as good as touching. No face is ever asked for its side. */
 #ifndef GJK_CORE_INTERSECT_H
 #define GJK_CORE_INTERSECT_H
 
@@ -33,8 +33,8 @@ static void move(search *q, vec t)
     q->repeated = 0;
 }
 
-/* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen to a
- * rounding's worth below 0, or to 0. Else not told. */
+/* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen
+ * to a rounding's worth below 0, or to 0. Else not told. */
 static enum end probe(search *q, int max_steps, real *upper)
 {
     search p = *q;

@@ -34,10 +34,7 @@ static inline vec load(const real *c)
     return r;
 }
 
-static inline void store(real *c, vec a)
-{
-    EACH(c[i] = a.c[i]);
-}
+static inline void store(real *c, vec a) { EACH(c[i] = a.c[i]); }
 
 static inline vec axis(int k, real x)
 {

@@ -62,9 +62,15 @@ static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
     return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);
 }
 
-static inline vec place(const difference *d, const body *k, vec x) { return k->posed ? map(k->m, x) : mul(x, d->scale); }
+static inline vec place(const difference *d, const body *k, vec x)
+{
+    return k->posed ? map(k->m, x) : mul(x, d->scale);
+}
 
-static inline vec corner_of(const difference *d, vec x, vec y) { return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c)); }
+static inline vec corner_of(const difference *d, vec x, vec y)
+{
+    return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c));
+}
 
 /* What corner_of(x, y) is, to twice the digits, minus w. x and y are given with what rounding took from them. */
 static vec remainder_of(const difference *d, vec x, vec x_low, vec y, vec y_low, vec w)
@@ -146,7 +152,8 @@ static int settle(difference *d, real slack)
     d->c_low = mul(d->c_low, d->scale);
     d->doubt = UNIT * d->scale * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
     d->slack = slack * d->scale * (d->a.stretch + d->b.stretch) * (1 + 8 * UNIT);
-    d->wild = unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale);
+    d->wild =
+        unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale);
     if (d->wild) { /* products that underflow, in the supports (64) and in the scaled maps (reach) */
         real grown = 64 * TINY * d->scale * larger(1, d->a.stretch + d->b.stretch);
         d->doubt += grown + 8 * TINY * d->a.reach + 8 * TINY * d->b.reach + 4 * REAL_MIN;

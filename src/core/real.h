@@ -48,8 +48,10 @@ typedef uint32_t bits;
 #define PLAIN ((real)0x1p30)
 #endif
 
-#define UNIT ((real)1 / (real)((bits)2 << MANTISSA)) /* unit roundoff: a rounded result is off by this share at most */
-#define TINY (REAL_MIN * (2 * UNIT))                 /* the least number above 0 */
+/* Unit roundoff: a rounded result is off by this share at most. */
+#define UNIT ((real)1 / (real)((bits)2 << MANTISSA))
+/* The least number above 0. */
+#define TINY (REAL_MIN * (2 * UNIT))
 
 static inline real root(real x)
 {
@@ -86,7 +88,8 @@ static inline real signed_as(real x, real y)
 
 static inline int bounded(real x) { return size(x) <= REAL_MAX; }
 
-/* A power of two that brings x, finite and not negative, into [1, 4); as near as the format allows where x is subnormal. */
+/* A power of two that brings x, finite and not negative, into [1, 4); as near as the format allows where x is
+ * subnormal. */
 static inline real leveler(real x)
 {
     bits e;

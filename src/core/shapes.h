@@ -48,8 +48,8 @@ static size_t step_of(const points *p) { return p->stride ? p->stride / sizeof(r
 
 static int cloud(const points *p)
 {
-    return p->v && p->count > 0 && p->stride % sizeof(real) == 0 && (p->stride == 0 || p->stride >= DIM * sizeof(real)) &&
-           p->reach >= 0;
+    return p->v && p->count > 0 && p->stride % sizeof(real) == 0 &&
+           (p->stride == 0 || p->stride >= DIM * sizeof(real)) && p->reach >= 0;
 }
 
 GJK_API real pub(points_reach)(const points *p)

@@ -50,8 +50,8 @@ static inline void keep(simplex *s, unsigned mask)
     for (int i = 0; i < n; i++) s->at[k + i] = dropped[i];
 }
 
-/* Where the origin projects onto the line through p and q, if that is between them, or beyond by no more than the leeway,
- * a share of the whole. The weights, here and in what follows, are in proportion; their sum is not 1. */
+/* Where the origin projects onto the line through p and q, if that is between them, or beyond by no more than the
+ * leeway, a share of the whole. The weights, here and in what follows, are in proportion; their sum is not 1. */
 static inline int edge(vec p, vec q, real leeway, vec *v, real weight[2])
 {
     vec e = sub(q, p);
@@ -82,11 +82,13 @@ static inline real gain(vec p, vec e)
 #include "simplex3.h"
 #endif
 
-/* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free of
- * assumptions. A full simplex, which no direction leads out of, counts as a part only if solid. Drops the other corners.
+/* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free
+ * of assumptions. A full simplex, which no direction leads out of, counts as a part only if solid. Drops the other
+ * corners.
  *
- * With noise, in squared distance, a part also serves where its plane's nearest point is outside it by a rounding, and of
- * parts that are equal to within the noise the one with more corners is taken: in truth it is never the farther one. */
+ * With noise, in squared distance, a part also serves where its plane's nearest point is outside it by a rounding, and
+ * of parts that are equal to within the noise the one with more corners is taken: in truth it is never the farther one.
+ */
 static vec nearest_of_all(simplex *s, unsigned required, int solid, real noise)
 {
     unsigned best = 0, all = s->n > DIM && !solid ? (1u << s->n) - 1 : 1u << s->n;
