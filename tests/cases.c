@@ -46,8 +46,9 @@ static const body *body_of(const case_shape *s)
                   : s->kind == K(HULL)     ? HULL
                                            : ORIGIN);
     b->count = b->kind == POINTS ? (int)s->count : b->kind == SEGMENT ? 2 : b->kind == TRIANGLE ? 3 : 0;
-    memcpy(b->v, s->numbers, (size_t)b->count * sizeof b->v[0]);
-    if (b->kind == BOX) {
+    if (b->count) {
+        memcpy(b->v, s->numbers, (size_t)b->count * sizeof b->v[0]);
+    } else if (b->kind == BOX) {
         memcpy(b->half, s->numbers, sizeof b->half);
     } else if (b->kind >= CYLINDER && b->kind <= BALL) {
         b->radius = s->numbers[0];

@@ -27,7 +27,7 @@ static inline double double_root(double x) { return sqrt(x); }
 #define T quad
 #define N(name) quad_##name
 #define FLAT 1e-30
-#define OUTSIDE 1e-18
+#define OUTSIDE 1e-30
 #define ENOUGH 1e-28
 static inline quad quad_root(quad x) { return quad_sqrt(x); }
 #include "slow_gjk.h"

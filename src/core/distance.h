@@ -107,9 +107,11 @@ static int sharpen(search *q)
     vec low;
     certify(q, weight);
     vec high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low));
+    real vv = dot(v, v);
+    if (!(vv > UNIT * UNIT / 4)) return 0;
     q->v = v;
-    q->vv = dot(v, v);
-    return !vanished(q);
+    q->vv = vv;
+    return 1;
 }
 
 /* |v| as near as one number can say it, measured along v: what the weights are off moves the corner that they single
@@ -160,7 +162,7 @@ static inline int advance(search *q)
         s->n = n + 1;
         v = nearest_of_all(s, 1u << n, 1, noise);
         vv = dot(v, v);
-        if (!(vv < q->vv + noise) || q->sidesteps == SIDESTEPS) {
+        if (!(vv < q->vv + noise) || q->sidesteps >= SIDESTEPS) {
             memcpy(s->at, at, sizeof at);
             s->n = n;
             return 0;
@@ -173,15 +175,12 @@ static inline int advance(search *q)
     return 1;
 }
 
-/* A full simplex that holds the origin, but so narrow that rounding may have put it there, is searched on from the face
- * that the origin is nearest to. */
-static int flatten(search *q)
+/* A full simplex that holds the origin, but so narrow that rounding may have put it there, gives way to the face that
+ * the origin is nearest to. */
+static void flatten(search *q)
 {
-    if (q->sidesteps == SIDESTEPS) return 0;
-    q->sidesteps++;
     q->v = nearest_of_all(&q->s, 0, 0, 0);
     q->vv = dot(q->v, q->v);
-    return 1;
 }
 
 /* What the corner in the spare slot shows; OPEN where the search may go on. */
@@ -202,7 +201,10 @@ static inline enum end consider(search *q, const goal *g)
         if (q->repeated || !(gap > UNIT / 2 * dot_size(q->v, last->w))) return STILL;
     }
     if (!advance(q)) return STILL;
-    if (q->s.n > DIM && (room(&q->s) > q->d.doubt || !flatten(q))) return INSIDE;
+    if (q->s.n > DIM) {
+        if (room(&q->s) > q->d.doubt || q->sidesteps++ >= SIDESTEPS) return INSIDE;
+        flatten(q);
+    }
     if (vanished(q)) return STILL;
     if (!g->early) return OPEN;
     real upper = root(q->vv) + q->d.doubt;

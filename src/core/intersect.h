@@ -31,6 +31,7 @@ static void move(search *q, vec t)
     q->vv = dot(q->v, q->v);
     q->lower = -REAL_MAX;
     q->repeated = 0;
+    q->sidesteps = 0;
 }
 
 /* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen

@@ -3,6 +3,9 @@
 #ifndef GJK_CORE_SIMPLEX3_H
 #define GJK_CORE_SIMPLEX3_H
 
+/* A triangle whose angle has a squared sine below this is projected onto side by side: its normal is mostly noise. */
+#define NARROW ((real)1e-5)
+
 static inline vec cross(vec a, vec b)
 {
     vec r = {{a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2], a.c[0] * b.c[1] - a.c[1] * b.c[0]}};
@@ -29,7 +32,7 @@ static inline int face(vec p, vec q, vec r, real leeway, vec *v, real weight[3])
 {
     vec a = sub(q, p), b = sub(r, p), n = cross(a, b);
     real nn = dot(n, n), aa = dot(a, a), bb = dot(b, b);
-    if (nn > (real)1e-5 * aa * bb) {
+    if (nn > NARROW * aa * bb) {
         weight[1] = dot(n, cross(b, p));
         weight[2] = dot(n, cross(p, a));
         weight[0] = nn - weight[1] - weight[2];
@@ -133,11 +136,14 @@ static vec nearest(simplex *s)
     return v;
 }
 
+/* A narrow triangle stands in for its longer edge. */
 static vec square_to(const simplex *s, vec v)
 {
-    vec a = sub(point(s, 1), point(s, 0)), b = sub(point(s, 2), point(s, 0)), n = cross(a, b);
-    if (s->n == 2) v = sub(v, mul(a, dot(v, a) / dot(a, a)));
-    return s->n == 3 ? mul(n, dot(n, v) / dot(n, n)) : v;
+    if (s->n != 2 && s->n != 3) return v;
+    vec a = sub(point(s, 1), point(s, 0)), b = s->n == 3 ? sub(point(s, 2), point(s, 0)) : a, n = cross(a, b);
+    real aa = dot(a, a), bb = dot(b, b), nn = dot(n, n);
+    if (nn > NARROW * aa * bb) return mul(n, dot(n, v) / nn);
+    return aa > bb ? sub(v, mul(a, dot(v, a) / aa)) : sub(v, mul(b, dot(v, b) / bb));
 }
 
 static void change(const simplex *s, vec way, real weight[4])
