@@ -156,8 +156,9 @@ static inline int advance(search *q)
     s->n = n + 1;
     vec v = nearest(s);
     real vv = dot(v, v);
-    if (!(vv < q->vv)) {                      /* once more without assumptions */
-        real noise = 16 * UNIT * root(q->vv); /* of corners in a frame of size 1 to 4 */
+    if (!(vv < q->vv)) { /* once more without assumptions */
+        /* of corners in a frame of size 1 to 4; a v as small as that itself has nothing to gain */
+        real noise = q->vv > 16 * UNIT * UNIT ? 16 * UNIT * root(q->vv) : 0;
         memcpy(s->at, at, sizeof at);
         s->n = n + 1;
         v = nearest_of_all(s, 1u << n, 1, noise);
