@@ -42,7 +42,8 @@ enum gjk_status {
     GJK_FLOOR = 2,         /* rounding allows no more: the bracket is wider than asked, or straddles contact */
     GJK_LIMIT = 3,         /* stopped at max_steps */
     GJK_BAD_ARGUMENT = -1, /* a null pointer, a number that is not finite or negative, options from the future */
-    GJK_BAD_SUPPORT = -2   /* a support gave a point that is not finite, or points that contradict each other */
+    GJK_BAD_SUPPORT = -2   /* a support gave a point that is not finite or beyond the reach, or that overflows once
+                            * placed, or points that no convex set has: the bounds crossed */
 };
 
 /* The library's own version: major * 10000 + minor * 100 + patch. */

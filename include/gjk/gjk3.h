@@ -21,8 +21,8 @@ extern "C" {
  *             status < 0: the caller's mistake, *out untouched.
  *   return    the status, also found in the result. */
 
-/* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero, but not unit.
- * Equal inputs must give equal outputs.
+/* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero; not unit, but of a size
+ * whose square is well within range. Equal inputs must give equal outputs.
  *
  * Returns the reach of the set: no point of it lies farther than this from its own origin. A bound will do; it
  * enters the bracket's rounding terms only. 0: not known, and the library makes six more calls to find out.
@@ -64,7 +64,7 @@ typedef struct gjk3_options {
     double abs_tol;       /* stop at upper - lower <= abs_tol + rel_tol * upper; */
     double rel_tol;       /*   both 0: as tight as rounding allows */
     double cutoff;        /* > 0: stop once the answer is proven above it */
-    double slack;         /* how far a support may fall short of the farthest point, beyond its rounding */
+    double slack;         /* how far a support may fall short of the farthest point, in its set's own coordinates */
     gjk3_cache *cache;    /* NULL: start cold */
     const void *reserved; /* NULL */
 } gjk3_options;
