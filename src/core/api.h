@@ -104,22 +104,11 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
 
 /* Where the search has come to its end on contact, and the bracket of the cores straddles it, finds out on which side
  * they are, if rounding allows. 0: a support's answer was none. */
-static int tell(search *q, const goal *g, real *upper, real weight[], enum end *end)
+static int tell(search *q, const goal *g, real *upper, enum end *end)
 {
     if ((*end != STILL && *end != INSIDE) || q->lower > 0 || *upper < 0 || *upper < g->within * q->d.scale) return 1;
     enum end told = probe(q, g->max_steps, upper);
     if (told == OPEN) *end = OPEN;
-    if (told != WITHIN && q->s.n > DIM) { /* too narrow to count as full: a face of it may be known better */
-        search flat = *q;
-        real face_weight[DIM + 1];
-        flatten(&flat);
-        real face = certify(&flat, face_weight);
-        if (face < *upper) {
-            q->s = flat.s;
-            memcpy(weight, face_weight, sizeof face_weight);
-            *upper = face;
-        }
-    }
     return told != FAULT;
 }
 
@@ -185,7 +174,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT || !tell(&q, &g, &upper, weight, &end)) return GJK_BAD_SUPPORT;
+    if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;
     bracket(&r, &q.d, q.lower, upper, radius);
     int meeting = r.upper <= 0;
     r.upper = larger(r.upper, 0);
@@ -210,7 +199,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     goal g = {radius * (1 + 16 * UNIT), radius * (1 - 16 * UNIT), radius, -1, 0, radius > 0, (int)o.max_steps};
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT || !tell(&q, &g, &upper, weight, &end)) return GJK_BAD_SUPPORT;
+    if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;
     bracket(&r, &q.d, q.lower, upper, radius);
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     witness(&r, &q, weight, a, b, r.upper < 0);

@@ -54,12 +54,10 @@ typedef struct search {
 /* |v| is below half a rounding of the frame, which is of size 1 to 4: it has no direction. */
 static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
 
-/* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. In a narrow
- * simplex they are coarse, and their corner off v by a slip across it; what the slip says of them is taken back. */
-static real certify(const search *q, real weight[DIM + 1])
+/* In a narrow simplex the weights are coarse, and their corner x off v by a slip across it; what the slip says of them is
+ * taken back, as long as that brings the corner nearer. */
+static vec take_back(const search *q, vec x, real weight[DIM + 1])
 {
-    weigh(&q->s, weight);
-    vec x = blend(&q->s, weight, offsetof(vertex, w));
     for (int i = 0; i < 3; i++) {
         real better[DIM + 1];
         vec slip = sub(x, q->v);
@@ -72,6 +70,32 @@ static real certify(const search *q, real weight[DIM + 1])
         memcpy(weight, better, sizeof better);
         x = y;
     }
+    return x;
+}
+
+/* A simplex too narrow for that is no better than its sides: takes the weights of the best side, if that is nearer. */
+static vec take_side(const search *q, vec x, real weight[DIM + 1])
+{
+    simplex side = q->s;
+    real better[DIM + 1];
+    if (side.n == 1 || !(peak(sub(x, q->v)) > 4 * UNIT)) return x;
+    nearest_of_all(&side, 0, 0, 0);
+    weigh(&side, better);
+    vec y = blend(&side, better, offsetof(vertex, w));
+    if (!(dot(y, y) < dot(x, x))) return x;
+    for (int i = 0; i < q->s.n; i++) {
+        weight[i] = 0;
+        for (int k = 0; k < side.n; k++) weight[i] += side.at[k] == q->s.at[i] ? better[k] : 0;
+    }
+    return y;
+}
+
+/* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. */
+static real certify(const search *q, real weight[DIM + 1])
+{
+    weigh(&q->s, weight);
+    vec x = blend(&q->s, weight, offsetof(vertex, w));
+    x = take_side(q, take_back(q, x, weight), weight);
     return length(x) * (1 + 8 * UNIT) + q->d.doubt;
 }
 

@@ -149,11 +149,15 @@ static vec square_to(const simplex *s, vec v)
 static void change(const simplex *s, vec way, real weight[4])
 {
     vec p = point(s, 0), a = sub(point(s, 1), p), b = sub(point(s, 2), p), c = sub(point(s, 3), p), n = cross(a, b);
-    weight[1] = s->n == 2 ? dot(way, a) / dot(a, a) : 0;
-    weight[2] = weight[3] = 0;
-    if (s->n == 3) {
-        weight[1] = dot(n, cross(way, b)) / dot(n, n);
-        weight[2] = dot(n, cross(a, way)) / dot(n, n);
+    real aa = dot(a, a), bb = dot(b, b), nn = dot(n, n);
+    weight[1] = weight[2] = weight[3] = 0;
+    if (s->n == 2 || (s->n == 3 && !(nn > NARROW * aa * bb) && aa > bb)) {
+        weight[1] = dot(way, a) / aa;
+    } else if (s->n == 3 && !(nn > NARROW * aa * bb)) {
+        weight[2] = dot(way, b) / bb;
+    } else if (s->n == 3) {
+        weight[1] = dot(n, cross(way, b)) / nn;
+        weight[2] = dot(n, cross(a, way)) / nn;
     } else if (s->n == 4) {
         real whole = dot(n, c);
         weight[1] = dot(way, cross(b, c)) / whole;
