@@ -54,8 +54,8 @@ typedef struct search {
 /* |v| is below half a rounding of the frame, which is of size 1 to 4: it has no direction. */
 static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
 
-/* In a narrow simplex the weights are coarse, and their corner x off v by a slip across it; what the slip says of them is
- * taken back, as long as that brings the corner nearer. */
+/* In a narrow simplex the weights are coarse, and their corner x off v by a slip across it; what the slip says of them
+ * is taken back, as long as that brings the corner nearer. */
 static vec take_back(const search *q, vec x, real weight[DIM + 1])
 {
     for (int i = 0; i < 3; i++) {

@@ -34,12 +34,11 @@ static void move(search *q, vec t)
     q->sidesteps = 0;
 }
 
-/* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen
- * to a rounding's worth below 0, or to 0. Else not told. */
-static enum end probe(search *q, int max_steps, real *upper)
+/* Asks for one ball. Else than for probe, STILL: the noise of the corners is too large for a ball so small. */
+static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
 {
     search p = *q;
-    real ball = 2 * q->d.doubt, weight[DIM + 1], reach[2];
+    real weight[DIM + 1], reach[2];
     goal g = {0, (real)0.75 * ball, 0, -1, 0, 1, max_steps};
     enum end end = WITHIN;
     for (int k = 0; k <= DIM && end == WITHIN; k++) {
@@ -60,6 +59,16 @@ static enum end probe(search *q, int max_steps, real *upper)
     q->steps = p.steps;
     q->d.calls = p.d.calls;
     *upper = smaller(*upper, end == WITHIN ? g.within - ball : *upper);
+    return end;
+}
+
+/* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen
+ * to some roundings below 0, or to 0. Else not told. */
+static enum end probe(search *q, int max_steps, real *upper)
+{
+    enum end end = STILL;
+    for (real ball = 2; end == STILL && ball < 1000; ball *= 8)
+        end = probe_ball(q, ball * q->d.doubt, max_steps, upper);
     return end;
 }
 

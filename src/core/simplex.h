@@ -82,11 +82,12 @@ static inline real gain(vec p, vec e)
 #include "simplex3.h"
 #endif
 
-/* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free of
- * assumptions. The whole of it counts as a part only if asked for. Drops the other corners.
+/* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free
+ * of assumptions. The whole of it counts as a part only if asked for. Drops the other corners.
  *
- * With noise, in squared distance, a part also serves where its plane's nearest point is outside it by a rounding, and of
- * parts that are equal to within the noise the one with more corners is taken: in truth it is never the farther one. */
+ * With noise, in squared distance, a part also serves where its plane's nearest point is outside it by a rounding, and
+ * of parts that are equal to within the noise the one with more corners is taken: in truth it is never the farther one.
+ */
 static vec nearest_of_all(simplex *s, unsigned required, int whole, real noise)
 {
     unsigned best = 0, end = (1u << s->n) - (whole ? 0 : 1);
