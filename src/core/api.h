@@ -88,10 +88,9 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         if (warm) warm = open_warm(q, a, b, o->slack, o->cache);
         if (warm || open_cold(q, a, b, o->slack)) {
             goal here = scaled(g, q->d.scale);
-            end = search_on(q, &here);
+            end = search_on(q, &here, upper, weight);
         }
         if (end != FAULT) {
-            *upper = certify(q, weight);
             if (end == INSIDE && room(&q->s) > q->d.doubt) *upper = q->d.doubt - room(&q->s);
             if (q->lower <= *upper && settled(q)) break;
         }

@@ -125,11 +125,9 @@ static vec single_out(const search *q, const real weight[DIM + 1], vec *low)
 /* v to all its digits. Its error is that of the corners, a rounding of their size; near contact v is smaller still, and
  * its direction noise. Worked out from the corner that the weights single out, and once more made square to the
  * simplex, it is as good as the edges are. 0 where it vanishes. */
-static int sharpen(search *q)
+static int sharpen(search *q, const real weight[DIM + 1])
 {
-    real weight[DIM + 1];
     vec low;
-    certify(q, weight);
     vec high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low));
     real vv = dot(v, v);
     if (!(vv > UNIT * UNIT / 4)) return 0;
@@ -265,19 +263,22 @@ static enum end descend(search *q, const goal *g)
     }
 }
 
-/* descend, and where v was too coarse to prove what it found, again along the sharpened v. */
-static enum end search_on(search *q, const goal *g)
+/* descend, and where v was too coarse to prove what it found, again along the sharpened v. upper and weight are those
+ * of the simplex that is left. */
+static enum end search_on(search *q, const goal *g, real *upper, real weight[DIM + 1])
 {
-    real weight[DIM + 1], reach[2];
+    real reach[2];
     enum end end = descend(q, g);
+    *upper = certify(q, weight);
     for (int i = 0; i < SHARPENINGS && end == STILL; i++) {
-        if (certify(q, weight) - q->lower <= 4 * q->d.doubt + q->d.slack) break;
+        if (*upper - q->lower <= 4 * q->d.doubt + q->d.slack) break;
         if (q->steps >= g->max_steps) return OPEN;
-        if (!sharpen(q)) break;
+        if (!sharpen(q, weight)) break;
         if (!ask(&q->d, q->v, spare(&q->s), reach)) return FAULT;
         known(q, spare(&q->s));
         q->repeated = 0;
         end = descend(q, g);
+        *upper = certify(q, weight);
     }
     return end;
 }
