@@ -44,15 +44,11 @@ static void remember(cache *k, const search *q, const shape *a, const shape *b)
 {
     int n = q->s.n, lent = 1;
     for (int i = 0; i < n; i++) lent &= (int)(q->borrowed >> q->s.at[i] & 1);
-    if (lent && q->repeated) return; /* nothing new: the cache may hold more than this simplex */
+    if (lent && q->repeated) return;     /* nothing new: the cache may hold more than this simplex */
+    if (q->pending && !q->repeated) n++; /* the corner in the spare slot: the next query may be answered with it */
     for (int i = 0; i < n; i++) {
-        store(k->a[i], q->s.slot[q->s.at[i]].x);
-        store(k->b[i], q->s.slot[q->s.at[i]].y);
-    }
-    if (q->pending && !q->repeated) { /* as near as the others: the next query may be answered with it */
-        store(k->a[n], q->s.slot[q->s.at[n]].x);
-        store(k->b[n], q->s.slot[q->s.at[n]].y);
-        n++;
+        store(k->a[i], corner(&q->s, i)->x);
+        store(k->b[i], corner(&q->s, i)->y);
     }
     k->count = (uint32_t)n;
     k->reserved = 0;

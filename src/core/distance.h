@@ -200,9 +200,9 @@ static inline int advance(search *q)
 
 /* A full simplex that holds the origin, but so narrow that rounding may have put it there, gives way to the face that
  * the origin is nearest to. */
-static void flatten(search *q)
+static void project(search *q, int whole)
 {
-    q->v = nearest_of_all(&q->s, 0, 0, 0);
+    q->v = nearest_of_all(&q->s, 0, whole, 0);
     q->vv = dot(q->v, q->v);
 }
 
@@ -226,7 +226,7 @@ static inline enum end consider(search *q, const goal *g)
     if (!advance(q)) return STILL;
     if (q->s.n > DIM) {
         if (room(&q->s) > q->d.doubt || q->sidesteps++ >= SIDESTEPS) return INSIDE;
-        flatten(q);
+        project(q, 0);
     }
     if (vanished(q)) return STILL;
     if (!g->early) return OPEN;
@@ -250,16 +250,23 @@ static int known(search *q, const vertex *p)
     return 0;
 }
 
+/* Asks for the corner least along q->v, into the spare slot. */
+static int look(search *q)
+{
+    real reach[2];
+    if (!ask(&q->d, q->v, spare(&q->s), reach)) return 0;
+    known(q, spare(&q->s));
+    return 1;
+}
+
 /* Walks on from the corner in the spare slot, least along q->v. */
 static enum end descend(search *q, const goal *g)
 {
-    real reach[2];
     if (vanished(q)) return q->s.n > DIM ? INSIDE : STILL;
     for (;;) {
         enum end end = consider(q, g);
         if (end != OPEN || q->steps >= g->max_steps) return end;
-        if (!ask(&q->d, q->v, spare(&q->s), reach)) return FAULT;
-        known(q, spare(&q->s));
+        if (!look(q)) return FAULT;
     }
 }
 
@@ -267,15 +274,13 @@ static enum end descend(search *q, const goal *g)
  * of the simplex that is left. */
 static enum end search_on(search *q, const goal *g, real *upper, real weight[DIM + 1])
 {
-    real reach[2];
     enum end end = descend(q, g);
     *upper = certify(q, weight);
     for (int i = 0; i < SHARPENINGS && end == STILL; i++) {
         if (*upper - q->lower <= 4 * q->d.doubt + q->d.slack) break;
         if (q->steps >= g->max_steps) return OPEN;
         if (!sharpen(q, weight)) break;
-        if (!ask(&q->d, q->v, spare(&q->s), reach)) return FAULT;
-        known(q, spare(&q->s));
+        if (!look(q)) return FAULT;
         q->repeated = 0;
         end = descend(q, g);
         *upper = certify(q, weight);
@@ -343,8 +348,7 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     }
     q->lender = k;
     q->borrowed = (1u << k->count) - 1;
-    q->v = nearest_of_all(&q->s, 0, 1, 0);
-    q->vv = dot(q->v, q->v);
+    project(q, 1);
     vec dir = vanished(q) ? away(q) : q->v;
     if (!ask(&q->d, dir, &first, reach)) return 0;
     if (reach[0] != 0 && larger(reach[0], 8 * REAL_MIN) != k->reach_a) return 0;

@@ -20,15 +20,14 @@ static vec outpost(int k)
 }
 
 /* Moves the origin of the search to t. */
-static void move(search *q, vec t)
+static void move(search *q, vec c)
 {
-    q->d.c = add(q->d.c, t);
+    q->d.c = c;
     for (int i = 0; i < q->s.n; i++) {
         vertex *p = &q->s.slot[q->s.at[i]];
         p->w = corner_of(&q->d, p->x, p->y);
     }
-    q->v = nearest_of_all(&q->s, 0, 1, 0);
-    q->vv = dot(q->v, q->v);
+    project(q, 1);
     q->lower = -REAL_MAX;
     q->repeated = 0;
     q->sidesteps = 0;
@@ -38,17 +37,16 @@ static void move(search *q, vec t)
 static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
 {
     search p = *q;
-    real weight[DIM + 1], reach[2];
+    real weight[DIM + 1];
     goal g = {0, (real)0.75 * ball, 0, -1, 0, 1, max_steps};
     enum end end = WITHIN;
     for (int k = 0; k <= DIM && end == WITHIN; k++) {
         vec t = mul(outpost(k), ball);
-        p.d.c = q->d.c;
-        move(&p, t);
+        move(&p, add(q->d.c, t));
         if (certify(&p, weight) < g.within) continue;
         if (p.s.n > DIM) end = INSIDE;
         else if (p.steps >= max_steps) end = OPEN;
-        else end = ask(&p.d, p.v, spare(&p.s), reach) ? descend(&p, &g) : FAULT;
+        else end = look(&p) ? descend(&p, &g) : FAULT;
         if (end == INSIDE || end == STILL) end = certify(&p, weight) < g.within ? WITHIN : STILL;
         real lower = p.lower - dot(p.normal, t) - 32 * UNIT * ball;
         if (end == BEYOND && lower > q->lower) {
@@ -58,7 +56,7 @@ static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
     }
     q->steps = p.steps;
     q->d.calls = p.d.calls;
-    *upper = smaller(*upper, end == WITHIN ? g.within - ball : *upper);
+    if (end == WITHIN) *upper = smaller(*upper, g.within - ball);
     return end;
 }
 

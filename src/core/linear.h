@@ -101,6 +101,13 @@ static inline int same(vec a, vec b)
     return r;
 }
 
+/* d brought to size 1/16 .. 1/8: no sum of products of a point with it overflows. The first axis for none. */
+static inline vec levelled(vec d)
+{
+    real far = peak(d);
+    return far > 0 ? mul(d, leveler(far) * (real)0.0625) : axis(0, 1);
+}
+
 /* m x, m by rows. */
 static inline vec map(const real *m, vec x)
 {

@@ -54,9 +54,7 @@ static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
 {
     if (d->wild) dir = mul(mul(dir, leveler(peak(dir))), k->posed ? k->ease : (real)1);
     if (k->posed) dir = pull(k->m, dir);
-    real longest = peak(dir);
-    if (!(longest > 0)) dir = axis(0, 1); /* the map flattens this direction: all points are equally far */
-    else if (d->wild) dir = mul(dir, leveler(longest) * (real)0.0625); /* no sum of three products overflows */
+    if (d->wild || !(peak(dir) > 0)) dir = levelled(dir); /* 0: the map flattens it, all points are equally far */
     d->calls++;
     *reach = k->support(k->data, dir.c, x->c);
     return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);

@@ -203,9 +203,7 @@ static real support_of(const shape *s, vec dir, vec *out)
     real nan = (real)NAN;
     if (!s->support || !sized(&s->radius, 1)) return nan;
     const pose *p = s->pose;
-    vec d = p ? pull(p->m, dir) : dir;
-    real longest = peak(d);
-    d = longest > 0 ? mul(d, leveler(longest) * (real)0.0625) : axis(0, 1);
+    vec d = levelled(p ? pull(p->m, dir) : dir);
     real reach = s->support(s->data, d.c, out->c);
     if (p) *out = add(map(p->m, *out), load(p->p));
     if (s->radius > 0) *out = add(*out, along(dir, s->radius));

@@ -76,6 +76,18 @@ static inline real gain(vec p, vec e)
     return t > 0 ? t * (t / dot(e, e)) : 0;
 }
 
+static inline vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
+{
+    real weight[2];
+    vec v;
+    if (edge(point(s, i), point(s, j), 0, &v, weight)) {
+        *mask = 1u << i | 1u << j;
+        return v;
+    }
+    *mask = 1u << j;
+    return point(s, j);
+}
+
 #if DIM == 2
 #include "simplex2.h"
 #else
@@ -95,7 +107,8 @@ static vec nearest_of_all(simplex *s, unsigned required, int whole, real noise)
     vec v = axis(0, 0);
     for (unsigned mask = 1; mask < end; mask++) {
         vec p;
-        if ((mask & required) != required || !part(s, mask, noise > 0 ? 16 * UNIT : 0, &p)) continue;
+        real weight[DIM + 1];
+        if ((mask & required) != required || !part(s, mask, noise > 0 ? 16 * UNIT : 0, &p, weight)) continue;
         real d = dot(p, p);
         for (int i = 0; i < s->n; i++) d -= mask >> i & 1 ? noise : 0;
         if (best != 0 && !(d < least)) continue;
@@ -122,7 +135,8 @@ static void normalize(real weight[DIM + 1], int n)
 static void weigh(const simplex *s, real weight[DIM + 1])
 {
     for (int i = 0; i <= DIM; i++) weight[i] = 0;
-    proportion(s, weight);
+    vec v;
+    part(s, (1u << s->n) - 1, 0, &v, weight);
     normalize(weight, s->n);
 }
 

@@ -19,10 +19,10 @@ static int holds(const simplex *s, real weight[3])
 
 /* The part of the simplex that the mask picks: its point nearest the origin, if that is in its
  * interior, or outside by no more than the leeway. */
-static int part(const simplex *s, unsigned mask, real leeway, vec *v)
+static int part(const simplex *s, unsigned mask, real leeway, vec *v, real weight[3])
 {
     int k[3], n = 0;
-    real weight[3];
+    weight[0] = 1;
     for (int i = 0; i < s->n; i++)
         if (mask >> i & 1) k[n++] = i;
     *v = n == 1 ? point(s, k[0]) : axis(0, 0);
@@ -30,29 +30,24 @@ static int part(const simplex *s, unsigned mask, real leeway, vec *v)
     return n == 3 ? holds(s, weight) : 1;
 }
 
-static inline vec nearest_on_edge(simplex *s, int i, int j)
-{
-    real weight[2];
-    vec v;
-    unsigned both = 1u << i | 1u << j;
-    if (edge(point(s, i), point(s, j), 0, &v, weight)) {
-        keep(s, both);
-        return v;
-    }
-    v = point(s, j);
-    keep(s, 1u << j);
-    return v;
-}
-
 /* The newest corner p is in the answer: three weights decide for the triangle, else the better edge at p. */
-static vec nearest(simplex *s)
+static vec nearest_of(const simplex *s, unsigned *mask)
 {
     real weight[3];
     if (s->n == 1) return point(s, 0);
-    if (s->n == 2) return nearest_on_edge(s, 0, 1);
+    if (s->n == 2) return nearest_on_edge(s, 0, 1, mask);
+    *mask = 7;
     if (holds(s, weight)) return axis(0, 0);
     vec p = point(s, 2);
-    return nearest_on_edge(s, gain(p, sub(point(s, 1), p)) > gain(p, sub(point(s, 0), p)), 2);
+    return nearest_on_edge(s, gain(p, sub(point(s, 1), p)) > gain(p, sub(point(s, 0), p)), 2, mask);
+}
+
+static vec nearest(simplex *s)
+{
+    unsigned mask = 1;
+    vec v = nearest_of(s, &mask);
+    keep(s, mask);
+    return v;
 }
 
 static vec square_to(const simplex *s, vec v)
@@ -71,14 +66,6 @@ static void change(const simplex *s, vec way, real weight[3])
         weight[2] = cross(a, way) / cross(a, b);
     }
     weight[0] = -weight[1] - weight[2];
-}
-
-static void proportion(const simplex *s, real weight[3])
-{
-    vec v;
-    weight[0] = 1;
-    if (s->n == 2) edge(point(s, 0), point(s, 1), 0, &v, weight);
-    if (s->n == 3) holds(s, weight);
 }
 
 static real room(const simplex *s)

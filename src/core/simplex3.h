@@ -66,28 +66,16 @@ static int holds(const simplex *s, real weight[4])
 
 /* The part of the simplex that the mask picks: its point nearest the origin, if that is in its
  * interior, or outside by no more than the leeway. */
-static int part(const simplex *s, unsigned mask, real leeway, vec *v)
+static int part(const simplex *s, unsigned mask, real leeway, vec *v, real weight[4])
 {
     int k[4], n = 0;
-    real weight[4];
+    weight[0] = 1;
     for (int i = 0; i < s->n; i++)
         if (mask >> i & 1) k[n++] = i;
     *v = n == 1 ? point(s, k[0]) : axis(0, 0);
     if (n == 2) return edge(point(s, k[0]), point(s, k[1]), leeway, v, weight);
     if (n == 3) return face(point(s, k[0]), point(s, k[1]), point(s, k[2]), leeway, v, weight);
     return n == 4 ? holds(s, weight) : 1;
-}
-
-static inline vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
-{
-    real weight[2];
-    vec v;
-    if (edge(point(s, i), point(s, j), 0, &v, weight)) {
-        *mask = 1u << i | 1u << j;
-        return v;
-    }
-    *mask = 1u << j;
-    return point(s, j);
 }
 
 /* Corner k is in the answer: the face, else the better of its two edges there. */
@@ -165,15 +153,6 @@ static void change(const simplex *s, vec way, real weight[4])
         weight[3] = dot(way, n) / whole;
     }
     weight[0] = -weight[1] - weight[2] - weight[3];
-}
-
-static void proportion(const simplex *s, real weight[4])
-{
-    vec v;
-    weight[0] = 1;
-    if (s->n == 2) edge(point(s, 0), point(s, 1), 0, &v, weight);
-    if (s->n == 3) face(point(s, 0), point(s, 1), point(s, 2), 0, &v, weight);
-    if (s->n == 4) holds(s, weight);
 }
 
 static real room(const simplex *s)
