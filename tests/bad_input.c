@@ -355,6 +355,25 @@ static void callbacks_not_finite(void **state)
     }
 }
 
+static real silent_support(const void *data, const real *dir, real *point)
+{
+    (void)data;
+    (void)dir;
+    (void)point;
+    return fake.reach;
+}
+
+/* What a support leaves in its point must be its own: whatever lay there before is no answer. */
+static void callback_writes_nothing(void **state)
+{
+    (void)state;
+    for (int known = 0; known < 2; known++) {
+        use_fake(0, (real)(2 * known));
+        a.shape.support = silent_support;
+        expect(GJK_BAD_SUPPORT);
+    }
+}
+
 static void callback_reaches(void **state)
 {
     V(result) known, unknown;
@@ -644,6 +663,7 @@ int main(void)
         cmocka_unit_test_setup(point_sets, fresh),
         cmocka_unit_test_setup(singular_poses, fresh),
         cmocka_unit_test_setup(callbacks_not_finite, fresh),
+        cmocka_unit_test_setup(callback_writes_nothing, fresh),
         cmocka_unit_test_setup(callback_reaches, fresh),
         cmocka_unit_test_setup(calls_are_counted, fresh),
         cmocka_unit_test_setup(points_that_contradict, fresh),

@@ -37,13 +37,14 @@ extern "C" {
 
 /* The sign is the meaning: from 0 up the bracket holds, below 0 the caller has erred and *out is untouched. */
 enum gjk_status {
-    GJK_OK = 0,            /* the bracket is as tight as asked */
-    GJK_DECIDED = 1,       /* stopped early, the question being settled: a sign proven, or the cutoff passed */
-    GJK_FLOOR = 2,         /* rounding allows no more: the bracket is wider than asked, or straddles contact */
-    GJK_LIMIT = 3,         /* stopped at max_steps */
-    GJK_BAD_ARGUMENT = -1, /* a null pointer, a number that is not finite or negative, options from the future */
-    GJK_BAD_SUPPORT = -2   /* a support gave a point that is not finite or beyond the reach, or that overflows once
-                            * placed, or points that no convex set has: the bounds crossed */
+    GJK_OK = 0,      /* the bracket is as tight as asked; no tolerance asked: as rounding allows, given the reach */
+    GJK_DECIDED = 1, /* stopped early, the question being settled: a sign proven, or the cutoff passed */
+    GJK_FLOOR = 2,   /* rounding allows no more: the bracket is wider than asked, or straddles contact */
+    GJK_LIMIT = 3,   /* stopped at max_steps */
+    GJK_BAD_ARGUMENT =
+        -1, /* a null pointer, a number that is negative or not finite, options without size or from the future */
+    GJK_BAD_SUPPORT = -2 /* a support gave a point that is not finite or beyond the reach, or that overflows once
+                          * placed, or points that no convex set has: the bounds crossed */
 };
 
 /* The library's own version: major * 10000 + minor * 100 + patch. */

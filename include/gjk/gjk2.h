@@ -19,16 +19,19 @@ extern "C" {
  *   threads   no global state. Calls may run at once unless they share a cache.
  *   truth     status >= 0: lower <= answer <= upper holds, rounding included.
  *             status < 0: the caller's mistake, *out untouched.
+ *   numbers   IEEE arithmetic, rounding to nearest, subnormal numbers kept (no flush-to-zero).
  *   return    the status, also found in the result. */
 
 /* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero; not unit, but of a size
  * whose square is well within range. Equal inputs must give equal outputs.
  *
  * Returns the reach of the set: no point of it lies farther than this from its own origin. A bound will do; it
- * enters the bracket's rounding terms only. 0: not known, and the library makes four more calls to find out.
+ * enters the bracket's rounding terms only. 0, and then always 0: not known, and the library makes four more calls to
+ * find out.
  *
  * The bracket allows for the support's own rounding: the point may fall short of the farthest, or stand off
- * the set, by up to 8 units of roundoff times the reach. What falls shorter is declared in options.slack. */
+ * the set, by up to 8 units of roundoff times the reach. What falls shorter is declared in options.slack; a support
+ * that lies beyond that is noticed only where the bounds cross. It must return: no exception, no longjmp. */
 typedef double gjk2_support_fn(const void *data, const double dir[2], double point[2]);
 
 /* x goes to m x + p. m by rows, any linear map: it may rotate, scale, shear, mirror or flatten. */
@@ -57,19 +60,22 @@ typedef struct gjk2_cache {
     uint32_t count, reserved;
 } gjk2_cache;
 
-/* The one struct that grows. Zero in a field means its default; NULL options mean all defaults. */
+/* The one struct that grows. Zero in a field but size means its default; NULL options mean all defaults:
+ *     gjk2_options o = {0};
+ *     o.size = sizeof o;
+ * All numbers are finite and not negative. */
 typedef struct gjk2_options {
-    uint32_t size;        /* sizeof(gjk2_options) in your build */
+    uint32_t size;        /* sizeof(gjk2_options) in your build; never 0 */
     uint32_t max_steps;   /* 0: 256. One step is one support call on each shape */
     double abs_tol;       /* stop at upper - lower <= abs_tol + rel_tol * upper; */
     double rel_tol;       /*   both 0: as tight as rounding allows */
-    double cutoff;        /* > 0: stop once the answer is proven above it */
+    double cutoff;        /* > 0: stop once lower is above it; value may then be as far off as upper */
     double slack;         /* how far a support may fall short of the farthest point, in its set's own coordinates */
     gjk2_cache *cache;    /* NULL: start cold */
     const void *reserved; /* NULL */
 } gjk2_options;
 
-/* Never grows. */
+/* Never grows. Points are as good as the coordinates of their frame: far from its origin they round. */
 typedef struct gjk2_result {
     double value;        /* the answer, inside the bracket */
     double lower, upper; /* proven */
@@ -89,7 +95,7 @@ GJK_API int gjk2_distance(const gjk2_shape *a, const gjk2_shape *b, const gjk2_o
  * the depth of the overlap, and is only as tight as the proof needs:
  *   lower > 0   apart             value = lower
  *   upper < 0   overlapping       value = upper
- *   else        not told apart    value = 0; status GJK_FLOOR: they touch, to this precision
+ *   else        not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
  * abs_tol, rel_tol and cutoff play no part. */
 GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
 

@@ -6,7 +6,7 @@
 #include "intersect.h"
 #include "shapes.h"
 
-#define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to: a size field that was never set */
+#define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
 
 static int sound(const shape *s)
 {
@@ -163,7 +163,12 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     real weight[DIM + 1], upper;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
-    goal g = {REAL_MAX, -1, radius, o.abs_tol, o.rel_tol, 0, (int)o.max_steps};
+    goal g = {.beyond = REAL_MAX,
+              .within = -1,
+              .radius = radius,
+              .abs_tol = o.abs_tol,
+              .rel_tol = o.rel_tol,
+              .max_steps = (int)o.max_steps};
     if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
     g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
@@ -174,6 +179,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     int meeting = r.upper <= 0;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
+    /* refine is NaN where its products overflow: larger passes it over */
     r.value = smaller(larger(refine(&q, weight) * q.d.unscale - radius, r.lower), r.upper);
     witness(&r, &q, weight, a, b, meeting);
     account(&r, &q);
@@ -191,7 +197,12 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     real weight[DIM + 1], upper;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
-    goal g = {radius * (1 + 16 * UNIT), radius * (1 - 16 * UNIT), radius, -1, 0, radius > 0, (int)o.max_steps};
+    goal g = {.beyond = radius * (1 + 16 * UNIT),
+              .within = radius * (1 - 16 * UNIT),
+              .radius = radius,
+              .abs_tol = -1, /* never */
+              .early = radius > 0,
+              .max_steps = (int)o.max_steps};
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
     if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;

@@ -7,7 +7,8 @@
  *     from above: the length of any convex combination of corners; minus the room around the origin inside a full
  * simplex.
  *
- * It ends: each step either raises the steps' count to its limit, or finds |v| smaller than ever before, or stops. */
+ * It ends: every step raises the count toward max_steps. Long before that, as a rule: a step makes |v| smaller, or uses
+ * up one of SIDESTEPS, or is the last; SHARPENINGS times at most the walk is taken up again. */
 #ifndef GJK_CORE_DISTANCE_H
 #define GJK_CORE_DISTANCE_H
 

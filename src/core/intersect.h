@@ -33,12 +33,12 @@ static void move(search *q, vec c)
     q->sidesteps = 0;
 }
 
-/* Asks for one ball. Else than for probe, STILL: the noise of the corners is too large for a ball so small. */
+/* probe with one ball; STILL: it is too small for the noise of the corners. */
 static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
 {
     search p = *q;
     real weight[DIM + 1];
-    goal g = {0, (real)0.75 * ball, 0, -1, 0, 1, max_steps};
+    goal g = {.within = (real)0.75 * ball, .abs_tol = -1, .early = 1, .max_steps = max_steps};
     enum end end = WITHIN;
     for (int k = 0; k <= DIM && end == WITHIN; k++) {
         vec t = mul(outpost(k), ball);
@@ -61,12 +61,13 @@ static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
 }
 
 /* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen
- * to some roundings below 0, or to 0. Else not told. */
+ * to no more than 4 balls below 0. OPEN: max_steps are used up. STILL: no ball told. The least ball is of 2 doubt,
+ * since any point of it can be certified no better than to 1; one so small may drown in the noise of the corners. */
 static enum end probe(search *q, int max_steps, real *upper)
 {
     enum end end = STILL;
-    for (real ball = 2; end == STILL && ball < 1000; ball *= 8)
-        end = probe_ball(q, ball * q->d.doubt, max_steps, upper);
+    for (int ball = 2; end == STILL && ball <= 128; ball *= 8)
+        end = probe_ball(q, (real)ball * q->d.doubt, max_steps, upper);
     return end;
 }
 

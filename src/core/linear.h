@@ -43,6 +43,14 @@ static inline vec axis(int k, real x)
     return r;
 }
 
+/* No point: what a support finds in its point, so that one which writes nothing is found out. */
+static inline vec nowhere(void)
+{
+    vec r;
+    EACH(r.c[i] = (real)NAN);
+    return r;
+}
+
 static inline vec add(vec a, vec b)
 {
     EACH(a.c[i] += b.c[i]);

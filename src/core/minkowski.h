@@ -56,6 +56,7 @@ static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
     if (k->posed) dir = pull(k->m, dir);
     if (d->wild || !(peak(dir) > 0)) dir = levelled(dir); /* 0: the map flattens it, all points are equally far */
     d->calls++;
+    *x = nowhere();
     *reach = k->support(k->data, dir.c, x->c);
     return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);
 }
@@ -106,6 +107,7 @@ static int survey(difference *d, body *k)
     for (int i = 0; i < 2 * DIM; i++) {
         real sign = i & 1 ? (real)-1 : (real)1;
         d->calls++;
+        x = nowhere();
         unsaid = k->support(k->data, axis(i / 2, sign).c, x.c);
         if (!(unsaid == 0)) return 0;
         for (int j = 0; j < DIM; j++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The number: one IEEE 754 type, rounded after each operation, so that equal inputs give equal bits everywhere.
- * Build with -ffp-contract=off; what can be checked of that is checked here. */
+ * Build with -ffp-contract=off, which cannot be checked here; what can be, is. */
 #ifndef GJK_CORE_REAL_H
 #define GJK_CORE_REAL_H
 
@@ -13,6 +13,9 @@
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "gjk proves its answers from the rules of IEEE arithmetic: build it without -ffast-math"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "gjk proves its answers from the rules of IEEE arithmetic: build it without -funsafe-math-optimizations"
 #endif
 #if defined(_MSC_VER) && defined(_M_FP_FAST)
 #error "gjk proves its answers from the rules of IEEE arithmetic: build it without /fp:fast"
@@ -71,7 +74,7 @@ static inline real size(real x)
 #endif
 }
 
-/* NaN comes through as the second. */
+/* A NaN in x is passed over; in y it comes through. */
 static inline real larger(real x, real y) { return x > y ? x : y; }
 static inline real smaller(real x, real y) { return x < y ? x : y; }
 

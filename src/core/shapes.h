@@ -15,9 +15,8 @@ typedef pub(couple) couple;
 /* The answer of data that describe no set. */
 static real refuse(real *out)
 {
-    real nan = (real)NAN;
-    EACH(out[i] = nan);
-    return nan;
+    store(out, nowhere());
+    return (real)NAN;
 }
 
 /* Sizes are finite and not negative. */
@@ -44,7 +43,7 @@ static vec along(vec dir, real l)
     return mul(dir, l / length(dir));
 }
 
-static size_t step_of(const points *p) { return p->stride ? p->stride / sizeof(real) : DIM; }
+static size_t stride_of(const points *p) { return p->stride ? p->stride / sizeof(real) : DIM; }
 
 static int cloud(const points *p)
 {
@@ -56,7 +55,7 @@ GJK_API real pub(points_reach)(const points *p)
 {
     if (!p || !cloud(p)) return (real)NAN;
     real far = 0, sum = 0;
-    size_t step = step_of(p);
+    size_t step = stride_of(p);
     for (size_t i = 0; i < p->count; i++) {
         vec x = load(p->v + i * step);
         if (!(spread(x) <= REAL_MAX)) return (real)NAN;
@@ -71,13 +70,14 @@ GJK_API real pub(points_reach)(const points *p)
     return root(sum) * (1 + 8 * UNIT) / level + REAL_MIN;
 }
 
-/* Farthest of the points, the first among equals. The sum of all heights is finite only if every point is. */
+/* Farthest of the points, the first among equals. The sum of height * 0 is 0 only if every height, and with it every
+ * point, is finite. */
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
 {
     const points *p = data;
     if (!p || !cloud(p)) return refuse(out);
     vec d = load(dir);
-    size_t step = step_of(p), best = 0;
+    size_t step = stride_of(p), best = 0;
     real highest = dot(load(p->v), d), sum = 0;
     for (size_t i = 0; i < p->count; i++) {
         real height = dot(load(p->v + i * step), d);
@@ -200,10 +200,10 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
  * licence of 8 roundings holds for the couple too. */
 static real support_of(const shape *s, vec dir, vec *out)
 {
-    real nan = (real)NAN;
-    if (!s->support || !sized(&s->radius, 1)) return nan;
+    if (!s->support || !sized(&s->radius, 1)) return (real)NAN;
     const pose *p = s->pose;
     vec d = levelled(p ? pull(p->m, dir) : dir);
+    *out = nowhere();
     real reach = s->support(s->data, d.c, out->c);
     if (p) *out = add(map(p->m, *out), load(p->p));
     if (s->radius > 0) *out = add(*out, along(dir, s->radius));

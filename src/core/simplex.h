@@ -3,90 +3,16 @@
  *
  * simplex2.h and simplex3.h give, each for its dimension:
  *   nearest     drops the corners that do not carry the nearest point; the newest corner is known to carry it
- *   part        the nearest point of one part of the simplex, if it is in that part's interior
+ *   part        the nearest point of one part of the simplex and its weights, if it is in that part's interior
  *   square_to   what of a vector is square to all edges
- *   change      of the weights on the corners, when the point they single out moves
- *   proportion  the nearest point's weights on the corners that are left
+ *   change      of the weights, when the point that they single out moves
  *   room        a full simplex: how far the origin is inside, after rounding; not above 0 where that is not certain
- * and both nearest points come from the face's normal, v = n (n.p) / (n.n), not from a weighted sum of corners: the
- * sum's rounding error stops the search on the wrong face once the gap is small. */
+ * The nearest point of a face (2-D: of an edge) comes from its normal, v = n (n.p) / (n.n), not from a weighted sum of
+ * corners: that sum's rounding error stops the search on the wrong face once the gap is small. */
 #ifndef GJK_CORE_SIMPLEX_H
 #define GJK_CORE_SIMPLEX_H
 
-#include "linear.h"
-
-typedef struct vertex {
-    vec w;    /* of the difference, in the search's frame and scale */
-    vec x, y; /* of A and of B, each in its own coordinates */
-} vertex;
-
-typedef struct simplex {
-    vertex slot[DIM + 1];
-    int at[DIM + 1]; /* slots of the corners, the newest last; then the free slots */
-    int n;
-} simplex;
-
-static inline void clear(simplex *s)
-{
-    for (int i = 0; i <= DIM; i++) s->at[i] = i;
-    s->n = 0;
-}
-
-static inline const vertex *corner(const simplex *s, int i) { return &s->slot[s->at[i]]; }
-static inline vec point(const simplex *s, int i) { return s->slot[s->at[i]].w; }
-
-/* Where the next corner goes, to be one of the simplex once n is raised. */
-static inline vertex *spare(simplex *s) { return &s->slot[s->at[s->n]]; }
-
-/* Keeps the corners i of the mask, in their order; the slots of the others are free. */
-static inline void keep(simplex *s, unsigned mask)
-{
-    int dropped[DIM + 1], k = 0, n = 0;
-    for (int i = 0; i < s->n; i++) {
-        if (mask >> i & 1) s->at[k++] = s->at[i];
-        else dropped[n++] = s->at[i];
-    }
-    s->n = k;
-    for (int i = 0; i < n; i++) s->at[k + i] = dropped[i];
-}
-
-/* Where the origin projects onto the line through p and q, if that is between them, or beyond by no more than the
- * leeway, a share of the whole. The weights, here and in what follows, are in proportion; their sum is not 1. */
-static inline int edge(vec p, vec q, real leeway, vec *v, real weight[2])
-{
-    vec e = sub(q, p);
-    real from_p = -dot(p, e), from_q = dot(q, e), l = dot(e, e);
-    weight[0] = from_q;
-    weight[1] = from_p;
-    if (!(from_p > -leeway * l) || !(from_q > -leeway * l) || !(l > 0)) return 0;
-#if DIM == 2
-    vec n = {{-e.c[1], e.c[0]}};
-    *v = mul(n, dot(n, from_p < from_q ? p : q) / l);
-#else
-    *v = from_p < from_q ? add(p, mul(e, from_p / l)) : sub(q, mul(e, from_q / l));
-    *v = sub(*v, mul(e, dot(*v, e) / l)); /* square to the edge by v's measure, not just by p's */
-#endif
-    return 1;
-}
-
-/* How near the line from p along e comes to the origin for positive steps: the decrease of the squared distance. */
-static inline real gain(vec p, vec e)
-{
-    real t = -dot(p, e);
-    return t > 0 ? t * (t / dot(e, e)) : 0;
-}
-
-static inline vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
-{
-    real weight[2];
-    vec v;
-    if (edge(point(s, i), point(s, j), 0, &v, weight)) {
-        *mask = 1u << i | 1u << j;
-        return v;
-    }
-    *mask = 1u << j;
-    return point(s, j);
-}
+#include "words.h"
 
 #if DIM == 2
 #include "simplex2.h"

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* simplex.h in the plane: points, edges, triangles. */
+/* What simplex.h asks of its dimension, in the plane: points, edges, triangles. */
 #ifndef GJK_CORE_SIMPLEX2_H
 #define GJK_CORE_SIMPLEX2_H
+
+#include "corners.h"
 
 static inline real cross(vec a, vec b) { return a.c[0] * b.c[1] - a.c[1] * b.c[0]; }
 
@@ -58,12 +60,14 @@ static vec square_to(const simplex *s, vec v)
 
 static void change(const simplex *s, vec way, real weight[3])
 {
-    vec p = point(s, 0), a = sub(point(s, 1), p), b = sub(point(s, 2), p);
-    weight[1] = s->n == 2 ? dot(way, a) / dot(a, a) : 0;
-    weight[2] = 0;
+    vec p = point(s, 0), a = sub(point(s, 1), p);
+    for (int i = 0; i < 3; i++) weight[i] = 0;
     if (s->n == 3) {
+        vec b = sub(point(s, 2), p);
         weight[1] = cross(way, b) / cross(a, b);
         weight[2] = cross(a, way) / cross(a, b);
+    } else if (s->n == 2) {
+        weight[1] = dot(way, a) / dot(a, a);
     }
     weight[0] = -weight[1] - weight[2];
 }

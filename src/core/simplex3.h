@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* simplex.h in space: points, edges, triangles, tetrahedra. */
+/* What simplex.h asks of its dimension, in space: points, edges, triangles, tetrahedra. */
 #ifndef GJK_CORE_SIMPLEX3_H
 #define GJK_CORE_SIMPLEX3_H
+
+#include "corners.h"
 
 /* A triangle whose angle has a squared sine below this is projected onto side by side: its normal is mostly noise. */
 #define NARROW ((real)1e-5)
@@ -16,11 +18,11 @@ static inline vec cross(vec a, vec b)
  * p, of the far end of the longer side, and of the remaining corner. */
 static void across(vec p, vec along, vec aside, vec *v, real weight[3])
 {
-    real ll = dot(along, along), lean = dot(aside, along) / ll, reach = -dot(p, along) / ll;
-    vec up = sub(aside, mul(along, lean)), foot = add(p, mul(along, reach));
+    real ll = dot(along, along), lean = dot(aside, along) / ll, share = -dot(p, along) / ll;
+    vec up = sub(aside, mul(along, lean)), foot = add(p, mul(along, share));
     real uu = dot(up, up);
     weight[2] = uu > 0 ? -dot(foot, up) / uu : 0;
-    weight[1] = reach - weight[2] * lean;
+    weight[1] = share - weight[2] * lean;
     weight[0] = 1 - weight[1] - weight[2];
     *v = add(foot, mul(up, weight[2]));
     *v = sub(*v, mul(along, dot(*v, along) / ll));
@@ -124,7 +126,7 @@ static vec nearest(simplex *s)
     return v;
 }
 
-/* A narrow triangle stands in for its longer edge. */
+/* For a narrow triangle its longer side stands in. */
 static vec square_to(const simplex *s, vec v)
 {
     if (s->n != 2 && s->n != 3) return v;
@@ -136,21 +138,20 @@ static vec square_to(const simplex *s, vec v)
 
 static void change(const simplex *s, vec way, real weight[4])
 {
-    vec p = point(s, 0), a = sub(point(s, 1), p), b = sub(point(s, 2), p), c = sub(point(s, 3), p), n = cross(a, b);
+    vec p = point(s, 0), a = sub(point(s, 1), p), b = s->n > 2 ? sub(point(s, 2), p) : a, n = cross(a, b);
     real aa = dot(a, a), bb = dot(b, b), nn = dot(n, n);
-    weight[1] = weight[2] = weight[3] = 0;
-    if (s->n == 2 || (s->n == 3 && !(nn > NARROW * aa * bb) && aa > bb)) {
-        weight[1] = dot(way, a) / aa;
-    } else if (s->n == 3 && !(nn > NARROW * aa * bb)) {
-        weight[2] = dot(way, b) / bb;
-    } else if (s->n == 3) {
-        weight[1] = dot(n, cross(way, b)) / nn;
-        weight[2] = dot(n, cross(a, way)) / nn;
-    } else if (s->n == 4) {
+    for (int i = 0; i < 4; i++) weight[i] = 0;
+    if (s->n == 4) {
+        vec c = sub(point(s, 3), p);
         real whole = dot(n, c);
         weight[1] = dot(way, cross(b, c)) / whole;
         weight[2] = dot(way, cross(c, a)) / whole;
         weight[3] = dot(way, n) / whole;
+    } else if (nn > NARROW * aa * bb) {
+        weight[1] = dot(n, cross(way, b)) / nn;
+        weight[2] = dot(n, cross(a, way)) / nn;
+    } else if (s->n > 1) {
+        weight[aa < bb ? 2 : 1] = aa < bb ? dot(way, b) / bb : dot(way, a) / aa;
     }
     weight[0] = -weight[1] - weight[2] - weight[3];
 }
