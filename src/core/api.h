@@ -174,7 +174,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;
+    if (end == FAULT || !tell(&q, &g, &upper, &end) || !(q.lower <= upper)) return GJK_BAD_SUPPORT;
     bracket(&r, &q.d, q.lower, upper, radius);
     int meeting = r.upper <= 0;
     r.upper = larger(r.upper, 0);
@@ -205,7 +205,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .max_steps = (int)o.max_steps};
 
     enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT || !tell(&q, &g, &upper, &end)) return GJK_BAD_SUPPORT;
+    if (end == FAULT || !tell(&q, &g, &upper, &end) || !(q.lower <= upper)) return GJK_BAD_SUPPORT;
     bracket(&r, &q.d, q.lower, upper, radius);
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     witness(&r, &q, weight, a, b, r.upper < 0);

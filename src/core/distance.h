@@ -310,8 +310,8 @@ static vec away(const search *q)
     for (int i = 0; i < q->s.n; i++) middle = add(middle, mul(point(&q->s, i), (real)1 / (real)q->s.n));
     vec tilt = sub(middle, p);
     real long_side = peak(tilt), far = peak(q->v);
-    if (!(far > 0)) return long_side > 0 ? tilt : axis(0, 1);
-    return long_side > 0 ? add(q->v, mul(tilt, far / long_side / 1024)) : q->v;
+    if (!(far > 0)) return levelled(tilt);
+    return levelled(long_side > 0 ? add(q->v, mul(tilt, far / long_side / 1024)) : q->v);
 }
 
 /* From nothing. */

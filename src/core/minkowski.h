@@ -43,7 +43,7 @@ typedef struct difference {
 /* Within the reach, and with that finite; the reach not known, just finite. */
 static inline int fits(const body *k, vec x)
 {
-    real limit = k->reach > 0 ? k->reach * (1 + 16 * UNIT) : REAL_MAX;
+    real limit = k->reach > 0 ? smaller(k->reach * (1 + 16 * UNIT), REAL_MAX) : REAL_MAX;
     int r = 1;
     EACH(r &= size(x.c[i]) <= limit);
     return r;
@@ -54,7 +54,7 @@ static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
 {
     if (d->wild) dir = mul(mul(dir, leveler(peak(dir))), k->posed ? k->ease : (real)1);
     if (k->posed) dir = pull(k->m, dir);
-    if (d->wild || !(peak(dir) > 0)) dir = levelled(dir); /* 0: the map flattens it, all points are equally far */
+    if (d->wild || !(peak(dir) > 1 / PLAIN)) dir = levelled(dir); /* 0: flattened by the map, all points equally far */
     d->calls++;
     *x = nowhere();
     *reach = k->support(k->data, dir.c, x->c);
@@ -99,8 +99,9 @@ static inline int ask(difference *d, vec v, vertex *p, real reach[2])
     return 1;
 }
 
-/* Finds the reach of a set whose support does not say: the box around it, two calls an axis. */
-static int survey(difference *d, body *k)
+/* Finds the reach of a set whose support does not say: the box around it, two calls an axis, each short by the slack.
+ */
+static int survey(difference *d, body *k, real slack)
 {
     vec far = axis(0, 0), x;
     real unsaid;
@@ -112,7 +113,7 @@ static int survey(difference *d, body *k)
         if (!(unsaid == 0)) return 0;
         for (int j = 0; j < DIM; j++) {
             if (!bounded(x.c[j])) return 0;
-            far.c[j] = larger(size(x.c[j]), far.c[j]);
+            far.c[j] = larger(size(x.c[j]) + slack, far.c[j]);
         }
     }
     k->reach = spread(far) * (1 + 16 * UNIT) + REAL_MIN;
@@ -133,8 +134,6 @@ static void seize(body *k, const shape *s)
     if (k->stretch > 0) k->ease = leveler(k->stretch);
 }
 
-static int unruly(real x) { return !(x > 1 / PLAIN && x < PLAIN); }
-
 /* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
 static int settle(difference *d, real slack)
 {
@@ -151,9 +150,9 @@ static int settle(difference *d, real slack)
     d->c = mul(d->c, d->scale);
     d->c_low = mul(d->c_low, d->scale);
     d->doubt = UNIT * d->scale * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
-    d->slack = slack * d->scale * (d->a.stretch + d->b.stretch) * (1 + 8 * UNIT);
-    d->wild =
-        unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale);
+    d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 8 * UNIT);
+    d->wild = unruly(d->scale) || unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) ||
+              unruly(d->b.stretch * d->scale);
     if (d->wild) { /* products that underflow, in the supports (64) and in the scaled maps (reach) */
         real grown = 64 * TINY * d->scale * larger(1, d->a.stretch + d->b.stretch);
         d->doubt += grown + 8 * TINY * d->a.reach + 8 * TINY * d->b.reach + 4 * REAL_MIN;
@@ -189,8 +188,8 @@ static int meet(difference *d, vec v, real slack, vertex *p)
 {
     real reach[2];
     if (!ask(d, v, p, reach)) return 0;
-    if (reach[0] == 0 ? !survey(d, &d->a) : (d->a.reach = reach[0], 0)) return 0;
-    if (reach[1] == 0 ? !survey(d, &d->b) : (d->b.reach = reach[1], 0)) return 0;
+    if (reach[0] == 0 ? !survey(d, &d->a, slack) : (d->a.reach = reach[0], 0)) return 0;
+    if (reach[1] == 0 ? !survey(d, &d->b, slack) : (d->b.reach = reach[1], 0)) return 0;
     if (!settle(d, slack)) return 0;
     p->w = corner_of(d, p->x, p->y);
     return fits(&d->a, p->x) && fits(&d->b, p->y);

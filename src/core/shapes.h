@@ -196,19 +196,29 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
 }
 #endif
 
-/* One of a couple, pose and radius included. Its reach counts all that passes through the rounding here, so that the
- * licence of 8 roundings holds for the couple too. */
+/* One of a couple, pose and radius included. Its reach counts all that passes through the rounding here, what
+ * underflows too, so that the licence of 8 roundings holds for the couple. A reach that is not known can't be charged
+ * for a pose of extreme size: NaN. */
 static real support_of(const shape *s, vec dir, vec *out)
 {
-    if (!s->support || !sized(&s->radius, 1)) return (real)NAN;
     const pose *p = s->pose;
-    vec d = levelled(p ? pull(p->m, dir) : dir);
+    real grows = p ? stretch(p->m) : 1;
+    if (!s->support || !sized(&s->radius, 1) || !(grows <= REAL_MAX)) return (real)NAN;
+    vec d = levelled(dir);
+    if (p && grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
     *out = nowhere();
     real reach = s->support(s->data, d.c, out->c);
     if (p) *out = add(map(p->m, *out), load(p->p));
     if (s->radius > 0) *out = add(*out, along(dir, s->radius));
-    if (!(reach > 0)) return reach;
-    return p ? 4 * stretch(p->m) * reach + spread(load(p->p)) + s->radius : reach + s->radius;
+    if (!(reach > 0)) return grows > 0 && unruly(grows) ? (real)NAN : reach;
+    return (p ? 4 * grows * reach + spread(load(p->p)) : reach) + s->radius + 16 * REAL_MIN;
+}
+
+/* Of both together: a bound must be finite, and is not known if one is not. */
+static real reach_of(real a, real b, real together)
+{
+    if (!(a <= REAL_MAX && b <= REAL_MAX)) return (real)NAN;
+    return a > 0 && b > 0 ? together : 0;
 }
 
 GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DIM])
@@ -217,9 +227,8 @@ GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DI
     vec a, b, d = load(dir);
     if (!c) return refuse(out);
     real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
-    if (!(reach_a >= 0 && reach_b >= 0)) return refuse(out);
     store(out, add(a, b));
-    return reach_a > 0 && reach_b > 0 ? 2 * (reach_a + reach_b) : 0;
+    return reach_of(reach_a, reach_b, 2 * (reach_a + reach_b));
 }
 
 GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[DIM])
@@ -228,9 +237,8 @@ GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[D
     vec a, b, d = load(dir);
     if (!c) return refuse(out);
     real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
-    if (!(reach_a >= 0 && reach_b >= 0)) return refuse(out);
     store(out, dot(d, a) >= dot(d, b) ? a : b);
-    return reach_a > 0 && reach_b > 0 ? 2 * larger(reach_a, reach_b) : 0;
+    return reach_of(reach_a, reach_b, 2 * larger(reach_a, reach_b));
 }
 
 #endif
