@@ -138,12 +138,20 @@ static void witness(result *r, const search *q, const real weight[], const shape
     store(r->point_b, on_b);
 }
 
-static void account(result *r, const search *q)
+/* What both questions share: the cores' search and its bracket with the radii taken off. FAULT: a support's answer was
+ * none, or the bounds cross. */
+static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r,
+                      real weight[])
 {
+    real upper;
+    enum end end = run(q, a, b, o, g, &upper, weight);
+    if (end == FAULT || !tell(q, g, &upper, &end) || !(q->lower <= upper)) return FAULT;
+    bracket(r, &q->d, q->lower, upper, g->radius);
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
+    return end;
 }
 
 static int distance_status(const result *r, const options *o, enum end end, real rounding)
@@ -160,7 +168,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     options o;
     search q;
     result r;
-    real weight[DIM + 1], upper;
+    real weight[DIM + 1];
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
@@ -173,16 +181,14 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
     g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
 
-    enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT || !tell(&q, &g, &upper, &end) || !(q.lower <= upper)) return GJK_BAD_SUPPORT;
-    bracket(&r, &q.d, q.lower, upper, radius);
+    enum end end = solve(&q, a, b, &o, &g, &r, weight);
+    if (end == FAULT) return GJK_BAD_SUPPORT;
     int meeting = r.upper <= 0;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     /* refine is NaN where its products overflow: larger passes it over */
     r.value = smaller(larger(refine(&q, weight) * q.d.unscale - radius, r.lower), r.upper);
     witness(&r, &q, weight, a, b, meeting);
-    account(&r, &q);
     real rounding = (4 * q.d.doubt + 2 * q.d.slack) * q.d.unscale + 16 * UNIT * radius;
     r.status = distance_status(&r, &o, end, rounding);
     *out = r;
@@ -194,7 +200,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     options o;
     search q;
     result r;
-    real weight[DIM + 1], upper;
+    real weight[DIM + 1];
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
@@ -204,12 +210,10 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .early = radius > 0,
               .max_steps = (int)o.max_steps};
 
-    enum end end = run(&q, a, b, &o, &g, &upper, weight);
-    if (end == FAULT || !tell(&q, &g, &upper, &end) || !(q.lower <= upper)) return GJK_BAD_SUPPORT;
-    bracket(&r, &q.d, q.lower, upper, radius);
+    enum end end = solve(&q, a, b, &o, &g, &r, weight);
+    if (end == FAULT) return GJK_BAD_SUPPORT;
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     witness(&r, &q, weight, a, b, r.upper < 0);
-    account(&r, &q);
     r.status = r.value != 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;
     return r.status;

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 import gjk
@@ -74,6 +75,29 @@ def test_bad_step_limits(steps):
 def test_bad_precision(precision):
     with pytest.raises(gjk.BadArgument, match="precision"):
         gjk.distance(gjk.Sphere(1), gjk.Sphere(1), precision=precision)
+
+
+@pytest.mark.parametrize("thing", [3, None, "box", (1, 1, 1), np.ones(3), gjk.Sphere])
+def test_what_is_no_shape(thing):
+    for ask in (gjk.distance, gjk.intersect):
+        with pytest.raises(gjk.BadArgument, match=f"^a: a shape is expected, not {type(thing).__name__}$"):
+            ask(thing, gjk.Sphere(1))
+        with pytest.raises(gjk.BadArgument, match=f"^b: a shape is expected, not {type(thing).__name__}$"):
+            ask(gjk.Sphere(1), thing)
+
+
+@pytest.mark.parametrize("cache", [{}, 3, False, gjk.Cache])
+def test_what_is_no_cache(cache):
+    for ask in (gjk.distance, gjk.intersect):
+        with pytest.raises(gjk.BadArgument, match=f"^cache: a Cache is expected, not {type(cache).__name__}$"):
+            ask(gjk.Sphere(1), gjk.Sphere(1), cache=cache)
+
+
+@pytest.mark.parametrize("dim", [3.0, 2.7, 1, 4, "3", True, None, [3]])
+def test_what_is_no_dimension(dim):
+    for make in (lambda: gjk.Support(tuple, dim), lambda: gjk.Sphere(1, dim=dim), lambda: gjk.Points([], dim=dim)):
+        with pytest.raises(gjk.BadArgument, match="dim"):
+            make()
 
 
 def test_dimensions_must_agree():

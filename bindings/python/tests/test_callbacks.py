@@ -84,6 +84,16 @@ def test_what_a_callback_raises_comes_out(precision, error, nth):
     assert gjk.distance(gjk.Sphere(1), gjk.Sphere(1), precision=precision).value == 0, "nothing is left behind"
 
 
+@pytest.mark.parametrize("answer", [None, 5, [1], ["x", 1, 1], [None] * 3, object()])
+def test_c_never_sees_an_exception(answer, capfd):
+    """cffi would print it and go on."""
+    for shape in (gjk.Support(lambda d: answer), gjk.Hull(gjk.Support(lambda d: answer, reach=9), gjk.Sphere(1))):
+        with pytest.raises(gjk.BadArgument, match="support") as wrong:
+            gjk.distance(shape, gjk.Sphere(1))
+        assert [entry.name for entry in wrong.traceback].count("_answer") == 1
+    assert capfd.readouterr() == ("", "")
+
+
 @precisions
 def test_inside_a_sum_and_a_hull(precision):
     def fails(direction):

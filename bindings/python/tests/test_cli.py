@@ -63,7 +63,7 @@ def test_touching_is_neither():
 
 def test_options_and_precision():
     cases = [
-        {**CASE, "options": {"max_steps": 1, "unknown": 7}},
+        {**CASE, "options": {"max_steps": 1}, "unknown": 7},
         {**CASE, "options": {"cutoff": 1}},
         {**CASE, "precision": "float"},
     ]
@@ -72,6 +72,11 @@ def test_options_and_precision():
     assert answers[0]["steps"] == 1
     assert answers[1]["status"] == "decided"
     assert answers[2]["upper"] - answers[2]["lower"] > 1e-9
+
+
+def test_options_of_distances_do_not_spoil_an_intersection():
+    (answer,), _ = ask({**CASE, "query": "intersect", "options": {"rel_tol": 0.1, "max_steps": 9}})
+    assert answer["status"] == "decided"
 
 
 @given(pair=pairs(), precision=st.sampled_from(["double", "float"]))
@@ -110,6 +115,8 @@ def test_cases_of_every_shape(pair, precision):
         ({"options": {"max_steps": 0.5}}, "bad argument", "options"),
         ({"options": {"rel_tol": float("nan")}}, "bad argument", "option"),
         ({"options": 3}, "bad argument", "options"),
+        ({"options": {"rel_tol": 0.1, "max_step": 1}}, "bad argument", "'max_step'"),
+        ({"options": {"rel-tol": 0.1}, "query": "intersect"}, "bad argument", "'rel-tol'"),
         ({"query": "penetration"}, "unsupported query", "penetration"),
         ({"query": "cast"}, "unsupported query", "cast"),
         ({"query": ["toi"]}, "unsupported query", "toi"),

@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import json
 import re
+import sys
 from html.parser import HTMLParser
 
 import pytest
@@ -75,6 +76,7 @@ def test_the_report_of_a_tiny_scene(scene, tmp_path, capsys):
     assert main(["report", str(scene), "--out", str(out), "--jobs", "1"]) == 0
     printed = capsys.readouterr()
     assert "hold the truth" in printed.out
+    assert "rel_tol, relative to the distance" in printed.out
     assert "exact truth" in printed.err
     check_rows(list(csv.DictReader((out / "report.csv").read_text(encoding="utf-8").splitlines())))
     check_page((out / "report.html").read_text(encoding="utf-8"))
@@ -108,6 +110,7 @@ def check_page(text):
     assert all(link.startswith("#") for link in page.loads), "the page needs nothing beside it"
     assert "tiny &amp; &lt;small&gt;" in text
     assert "prefers-color-scheme: dark" in text
+    assert "rel_tol, relative to the distance" in text
     assert re.findall(r"#0[1-9]0[1-9]0[1-9]", text) == [], "every colour is a variable"
     ids = re.findall(r' id="([^"]*)"', text)
     assert len(ids) == len(set(ids))
@@ -195,3 +198,23 @@ def test_bad_numbers_in_a_scene_are_named(tmp_path, capsys):
     path.write_text(json.dumps({**SCENE, "bodies": bodies, "shapes": shapes}))
     assert main(["report", str(path), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 2
     assert "floor and ball: b: radius is -1" in capsys.readouterr().err
+
+
+def test_a_folder_that_cannot_be_is_told_before_the_work(scene, monkeypatch, capsys):
+    monkeypatch.setattr(truth, "find", lambda *_: pytest.fail("worked before it looked"))
+    assert main(["report", str(scene), "--out", str(scene)]) == 2
+    assert "scene.json" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--limit", "--jobs"])
+@pytest.mark.parametrize("text", ["x", "0", "-3", "1.5"])
+def test_numbers_that_are_no_counts(scene, option, text, capsys):
+    with pytest.raises(SystemExit):
+        main(["report", str(scene), option, text])
+    assert f"{option}: a whole number from 1 up is expected, not '{text}'" in capsys.readouterr().err
+
+
+def test_what_the_report_needs_is_told(scene, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "gjk.report", None)
+    assert main(["report", str(scene)]) == 2
+    assert "pip install './bindings/python[report]'" in capsys.readouterr().err

@@ -23,7 +23,6 @@ class Variant:
         self.dim = dim
         self.precision = precision
         self.name = f"gjk{dim}" + ("f" if precision == "float" else "")
-        self.real = precision
         self.distance = self.function("distance")
         self.intersect = self.function("intersect")
         self.options_type = ffi.typeof(f"{self.name}_options *")
@@ -46,10 +45,10 @@ class Variant:
 
     def rounded(self, values: tuple[float, ...]) -> tuple[float, ...]:
         """The values as this precision holds them."""
-        return values if self.real == "double" else tuple(ffi.new("float[]", values))
+        return values if self.precision == "double" else tuple(ffi.new("float[]", values))
 
     def reals(self, values: Sequence[float]) -> Any:
-        return ffi.new(f"{self.real}[]", values)
+        return ffi.new(f"{self.precision}[]", values)
 
 
 _VARIANTS = {(dim, precision): Variant(dim, precision) for dim in (2, 3) for precision in PRECISIONS}
@@ -90,18 +89,19 @@ def raise_from_callback() -> None:
 
 def _answer(data: Any, direction: Any, point: Any) -> float:
     function, dim, reach = ffi.from_handle(data)
-    try:
-        x = numbers(function(tuple(direction[0:dim])), "support")
-        if len(x) != dim:
-            raise BadArgument(f"support: {len(x)} coordinates instead of {dim}")
-    except BaseException as error:  # C cannot carry it: it is kept, and raised when the query has ended
-        if getattr(_raised, "error", None) is None:
-            _raised.error = error
-        x = (float("nan"),) * dim
-    for i in range(dim):
-        point[i] = x[i]
+    point[0:dim] = (float("nan"),) * dim  # what C finds where the lines below raise
+    x = numbers(function(tuple(direction[0:dim])), "support")
+    if len(x) != dim:
+        raise BadArgument(f"support: {len(x)} coordinates instead of {dim}")
+    point[0:dim] = x
     return float(reach)
 
 
+def _keep(kind: type[BaseException], error: BaseException, traceback: Any) -> None:
+    """C cannot carry what `_answer` has raised: it is kept here, and raised when the query has ended."""
+    if getattr(_raised, "error", None) is None:
+        _raised.error = error.with_traceback(traceback)
+
+
 for _variant in _VARIANTS.values():
-    ffi.def_extern(f"{_variant.name}_python_support")(_answer)
+    ffi.def_extern(f"{_variant.name}_python_support", error=float("nan"), onerror=_keep)(_answer)

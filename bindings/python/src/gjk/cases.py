@@ -2,7 +2,8 @@
 """Cases and shapes as JSON objects: the one format of tests, tools and bug reports.
 
 A case is {"id", "dim": 2 | 3, "precision": "double" | "float", "query": "distance" | "intersect", "a": SHAPE,
-"b": SHAPE, "options": {...}}. Fields not known here are ignored. SHAPE is described in `shape_from_json`.
+"b": SHAPE, "options": {...}}. Fields not known here are ignored, but for those of "options": an option that is
+misspelt would not do what it was written for. SHAPE is described in `shape_from_json`.
 """
 
 from __future__ import annotations
@@ -146,6 +147,9 @@ def _ask(case: dict[str, Any], asked: str) -> Result:
     given = case.get("options") or {}
     if not isinstance(given, dict):
         raise BadArgument(f"options is an object, not {given!r}")
+    unknown = [name for name in given if name not in OPTIONS["distance"]]
+    if unknown:
+        raise BadArgument(f"no such option: {unknown[0]!r}; known are {', '.join(OPTIONS['distance'])}")
     options = {name: given[name] for name in OPTIONS[asked] if name in given}
     ask = distance if asked == "distance" else intersect
     return ask(a, b, precision=case.get("precision", "double"), **options)

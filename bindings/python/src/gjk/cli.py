@@ -58,9 +58,12 @@ def _add_report(commands: Any) -> None:
 
 
 def _positive(text: str) -> int:
-    number = int(text)
+    try:
+        number = int(text)
+    except ValueError:
+        number = 0
     if number < 1:
-        raise ValueError
+        raise argparse.ArgumentTypeError(f"a whole number from 1 up is expected, not {text!r}")
     return number
 
 
@@ -103,7 +106,7 @@ def _run_report(chosen: argparse.Namespace) -> int:
     try:
         from .report import run
     except ImportError as missing:
-        print(f"gjk report needs {missing.name}: pip install 'gjk[report]'", file=sys.stderr)
+        print(f"gjk report needs {missing.name}: pip install './bindings/python[report]'", file=sys.stderr)
         return 2
     return run(chosen.scene, chosen.out, chosen.precision, chosen.jobs, chosen.limit)
 

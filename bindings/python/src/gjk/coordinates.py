@@ -11,7 +11,7 @@ from typing import Any, Union
 
 from .errors import BadArgument
 
-__all__ = ["Numbers", "PoseLike", "fault_in", "number", "numbers", "pose_numbers", "rows", "stretched"]
+__all__ = ["Numbers", "PoseLike", "fault_in", "number", "number_fault", "numbers", "pose_numbers", "rows", "stretched"]
 
 Numbers = Iterable[float]
 """Numbers in a row: a sequence, a one-dimensional array, or any iterable."""
@@ -103,3 +103,8 @@ def fault_in(name: str, values: Iterable[float], sign: bool = False) -> str:
         if not abs(c) < float("inf") or (sign and c < 0):
             return f"{name}[{i}] is {c}"
     return ""
+
+
+def number_fault(name: str, x: float) -> str:
+    """What is wrong with a size: "radius is -1.0"."""
+    return "" if 0 <= x < float("inf") else f"{name} is {x}"

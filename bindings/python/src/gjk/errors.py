@@ -24,7 +24,7 @@ class Status(IntEnum):
     BAD_ARGUMENT = lib.GJK_BAD_ARGUMENT
     """A number that is not finite or is negative, or an argument of the wrong form."""
     BAD_SUPPORT = lib.GJK_BAD_SUPPORT
-    """A support gave a point that is not finite, or points that contradict each other."""
+    """A support gave a point that is not finite or beyond its reach, or points that no convex set has."""
 
     @property
     def label(self) -> str:
@@ -46,7 +46,8 @@ class BadArgument(Error):
 
 
 class BadSupport(Error):
-    """A support gave a point that is not finite, or points that contradict each other; or a set has no points."""
+    """A support gave a point that is not finite or beyond its reach, or points that no convex set has; or a set has
+    no points."""
 
     status = Status.BAD_SUPPORT
 

@@ -42,7 +42,7 @@ class Relation(Enum):
     APART = "apart"
     OVERLAPPING = "overlapping"
     TOUCHING = "touching"
-    """Contact, to this precision: rounding allows no verdict on either side of it."""
+    """Contact, to this precision: rounding, or the slack given, allows no verdict on either side of it."""
     UNDECIDED = "undecided"
     """Stopped by max_steps before a proof was found."""
 
@@ -117,7 +117,7 @@ def distance(
     precision "float" rounds the shapes to single precision and solves there: the bracket is then of the distance
     between the rounded shapes.
     """
-    v = variant(a.dim, precision)
+    v = _variant(a, b, precision)
     options = (cutoff, max_steps, abs_tol, rel_tol, slack)
     return Result._make(_ask(v, v.distance, a, b, options, cache))
 
@@ -135,9 +135,19 @@ def intersect(
 
     The options are those of `distance`.
     """
-    v = variant(a.dim, precision)
+    v = _variant(a, b, precision)
     options = (0.0, max_steps, 0.0, 0.0, slack)
     return Separation._make(_ask(v, v.intersect, a, b, options, cache))
+
+
+def _variant(a: Shape, b: Shape, precision: str) -> Variant:
+    """The variant that answers for the two, which must be shapes of one dimension."""
+    for name, shape in (("a", a), ("b", b)):
+        if not isinstance(shape, Shape):
+            raise BadArgument(f"{name}: a shape is expected, not {type(shape).__name__}")
+    if a.dim != b.dim:
+        raise BadArgument(f"a has {a.dim} dimensions, b has {b.dim}")
+    return variant(a.dim, precision)
 
 
 _DEFAULTS = (0.0, 0, 0.0, 0.0, 0.0)
@@ -152,8 +162,8 @@ def _ask(
     cache: Cache | None,
 ) -> tuple[Any, ...]:
     """The fields of a Result, or the exception that the status means."""
-    if a.dim != b.dim:
-        raise BadArgument(f"a has {a.dim} dimensions, b has {b.dim}")
+    if cache is not None and not isinstance(cache, Cache):
+        raise BadArgument(f"cache: a Cache is expected, not {type(cache).__name__}")
     native_a, python_a = a._native(v)
     native_b, python_b = b._native(v)
     settings = ffi.NULL
@@ -208,4 +218,4 @@ def _fault(a: Shape, b: Shape, options: tuple[float, int, float, float, float]) 
             return f"{name}: {fault}"
     if any(not 0 <= x < float("inf") for x in options):
         return "an option is negative or not finite"
-    return "out of the range of this precision, or the supports contradict themselves"
+    return "a point not finite, out of the range of this precision or beyond its reach; or points of no convex set"

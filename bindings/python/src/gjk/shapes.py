@@ -8,7 +8,7 @@ from typing import Any, Callable, ClassVar, TypeVar
 
 from ._gjk import ffi
 from ._native import Native, Variant, callback_handle
-from .coordinates import Numbers, PoseLike, fault_in, number, numbers, pose_numbers, rows, stretched
+from .coordinates import Numbers, PoseLike, fault_in, number, number_fault, numbers, pose_numbers, rows, stretched
 from .errors import BadArgument
 
 __all__ = [
@@ -58,8 +58,8 @@ class Shape:
     radius: float
 
     def __init__(self, dim: int, pose: PoseLike | None, radius: float, **sizes: Any) -> None:
-        if dim not in (2, 3) or isinstance(dim, bool):
-            raise BadArgument(f"{type(self).__name__}: {dim!r} dimensions, where 2 or 3 are expected")
+        if not isinstance(dim, int) or isinstance(dim, bool) or dim not in (2, 3):
+            raise BadArgument(f"{type(self).__name__}: {dim!r} dimensions, where the integer 2 or 3 is expected")
         for name, value in sizes.items():
             object.__setattr__(self, name, value)
         object.__setattr__(self, "dim", dim)
@@ -149,8 +149,7 @@ class Shape:
 
     def _fault(self) -> str:
         """The first number that no set can have, in words; "" where there is none."""
-        own = fault_in("pose", self.pose or ()) or fault_in("radius", [self.radius], sign=True)
-        return own.replace("radius[0]", "radius") or self._set_fault()
+        return fault_in("pose", self.pose or ()) or number_fault("radius", self.radius) or self._set_fault()
 
     def _set_fault(self) -> str:
         return ""
@@ -182,11 +181,13 @@ class Points(Shape):
         radius: float = 0.0,
     ) -> None:
         table = rows(points, "points")
-        if not table and dim is None:
-            raise BadArgument("Points: no points, and no dim to tell the dimension")
-        if table and dim not in (None, len(table[0])):
+        if dim is None:
+            if not table:
+                raise BadArgument("Points: no points, and no dim to tell the dimension")
+            dim = len(table[0])
+        elif table and len(table[0]) != dim:
             raise BadArgument(f"Points: {len(table[0])} coordinates in {dim}-D")
-        super().__init__(len(table[0]) if table else int(dim or 0), pose, radius, points=table)
+        super().__init__(dim, pose, radius, points=table)
 
     def _keywords(self) -> dict[str, Any]:
         words = super()._keywords()
@@ -309,7 +310,7 @@ class Capsule(Shape):
         return _ready(v, "support_segment", "segment", {"v": ((*axis, -z), (*axis, z))})
 
     def _set_fault(self) -> str:
-        return fault_in("half_length", [self.half_length], sign=True).replace("[0]", "")
+        return number_fault("half_length", self.half_length)
 
 
 def _without_radius(words: dict[str, Any], dim: int) -> dict[str, Any]:
@@ -335,7 +336,7 @@ class Ball(Shape):
         return _ready(v, "support_ball", "ball", {"radius": self.r})
 
     def _set_fault(self) -> str:
-        return fault_in("r", [self.r], sign=True).replace("[0]", "")
+        return number_fault("r", self.r)
 
 
 class Ellipsoid(Shape):
@@ -378,8 +379,7 @@ class _Round(Shape):
         super().__init__(3, pose, radius, **sizes)
 
     def _set_fault(self) -> str:
-        fault = fault_in("r", [self.r], sign=True) or fault_in("half_length", [self.half_length], sign=True)
-        return fault.replace("[0]", "")
+        return number_fault("r", self.r) or number_fault("half_length", self.half_length)
 
 
 class Cylinder(_Round):
@@ -414,7 +414,7 @@ class Disc(Shape):
         return _ready(v, "support_disc", "disc", {"radius": self.r})
 
     def _set_fault(self) -> str:
-        return fault_in("r", [self.r], sign=True).replace("[0]", "")
+        return number_fault("r", self.r)
 
 
 class _Couple(Shape):
@@ -506,4 +506,4 @@ class Support(Shape):
         return Native(v.address("python_support"), handle, (handle,), True)
 
     def _set_fault(self) -> str:
-        return fault_in("reach", [self.reach or 0.0], sign=True).replace("[0]", "")
+        return number_fault("reach", self.reach or 0.0)

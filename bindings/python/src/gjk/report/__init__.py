@@ -19,9 +19,9 @@ def run(path: Path, out: Path, precision: str, jobs: int | None, limit: int | No
     """Make the report and write it to the folder out. Returns 1 where a bracket was broken, 2 on bad input, else 0."""
     try:
         scene = load(path, limit)
+        out.mkdir(parents=True, exist_ok=True)  # before the long work, not to lose it to a folder that cannot be
         precisions = ["double", "float"] if precision == "both" else [precision]
         reports = _measure(scene, precisions, jobs)
-        out.mkdir(parents=True, exist_ok=True)
         table.write(out / "report.csv", reports)
         page.write(out / "report.html", scene, reports)
     except (SceneError, Error, OSError) as wrong:

@@ -93,6 +93,7 @@ $promises
 </div>
 
 <h2>The numbers</h2>
+<p>With tol the query had the option rel_tol, relative to the distance; full is as tight as rounding allows.</p>
 $tables
 
 <footer>
@@ -206,7 +207,7 @@ def _table(report: Report) -> str:
 {rows}
 </tbody></table></div>
 <p>Intersect: {v.ns:.0f} ns and {v.supports:.1f} support calls per query; {v.apart:,} apart, {v.overlapping:,}
-overlapping, {v.open:,} touching, {v.violations} wrong.</p>"""
+overlapping, {v.touching:,} touching, {v.violations} wrong.</p>"""
 
 
 def _row(report: Report, before: Row | None, row: Row) -> str:

@@ -48,8 +48,8 @@ class Verdicts(NamedTuple):
     supports: float
     apart: int
     overlapping: int
-    open: int
-    """Touching, to this precision."""
+    touching: int
+    """Neither was proven: contact, to this precision."""
     violations: int
     """Verdicts against the truth."""
 
@@ -100,8 +100,8 @@ def _verdicts(level: Answers, truths: list[Truth]) -> Verdicts:
         (says_apart and truth.relation != APART) or (says_over and truth.relation != OVERLAPPING)
         for says_apart, says_over, truth in zip(apart, overlapping, truths)
     )
-    open_ = len(apart) - sum(apart) - sum(overlapping)
-    return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(overlapping), open_, wrong)
+    touching = len(apart) - sum(apart) - sum(overlapping)
+    return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(overlapping), touching, wrong)
 
 
 def _mean_supports(level: Answers) -> float:
