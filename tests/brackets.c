@@ -72,25 +72,6 @@ static void broken(const char *what, const V(result) * r, double by)
 
 static double in_u(quad x, quad scale) { return (double)(x / (scale * (quad)U + (quad)REAL_MIN)); }
 
-static double span_of(const body *b)
-{
-    real dir[DIM] = {1}, x[DIM];
-    double sum = 0, reach = (double)b->shape.support(b->shape.data, dir, x);
-    for (int i = 0; i < DIM * DIM; i++) {
-        sum += (double)b->pose.m[i] * (double)b->pose.m[i];
-    }
-    return sqrt(sum) * reach + (double)b->shape.radius;
-}
-
-static double span_of_pair(const pair *p)
-{
-    double sum = span_of(&p->a) + span_of(&p->b);
-    for (int i = 0; i < DIM; i++) {
-        sum += fabs((double)p->b.pose.p[i] - (double)p->a.pose.p[i]);
-    }
-    return sum;
-}
-
 /* How far the point stands off the body. */
 static double stands_off(const view *v, const body *b, const quad *point)
 {
@@ -366,7 +347,7 @@ static void one_pair(tally *s, long index)
     s->uncertified += t.a.count && t.b.count && !t.certified;
     now.pair = p;
     now.truth = &t;
-    now.span = span_of_pair(p);
+    now.span = span_of_pair(&p->a, &p->b);
     now.tally = s;
     now.index = index;
 

@@ -69,26 +69,6 @@ static const body *body_of(const case_shape *s)
     return b;
 }
 
-/* As in brackets.c: what rounding scales with. */
-static double span_of(const body *b)
-{
-    real dir[DIM] = {1}, x[DIM];
-    double sum = 0, reach = (double)b->shape.support(b->shape.data, dir, x);
-    for (int i = 0; i < DIM * DIM; i++) {
-        sum += (double)b->pose.m[i] * (double)b->pose.m[i];
-    }
-    return sqrt(sum) * reach + (double)b->shape.radius;
-}
-
-static double span_of_pair(const body *a, const body *b)
-{
-    double sum = span_of(a) + span_of(b);
-    for (int i = 0; i < DIM; i++) {
-        sum += fabs((double)b->pose.p[i] - (double)a->pose.p[i]);
-    }
-    return sum;
-}
-
 static int failures;
 
 static void check(const test_case *c, int holds, const char *what, const V(result) * r)

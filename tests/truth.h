@@ -7,6 +7,26 @@
 
 #include "sets.h"
 
+/* What rounding scales with: the maps' norms times the sets' reaches, the offset, the radii. */
+static inline double span_of(const body *b)
+{
+    real dir[DIM] = {1}, x[DIM];
+    double sum = 0, reach = (double)b->shape.support(b->shape.data, dir, x);
+    for (int i = 0; i < DIM * DIM; i++) {
+        sum += (double)b->pose.m[i] * (double)b->pose.m[i];
+    }
+    return sqrt(sum) * reach + (double)b->shape.radius;
+}
+
+static inline double span_of_pair(const body *a, const body *b)
+{
+    double sum = span_of(a) + span_of(b);
+    for (int i = 0; i < DIM; i++) {
+        sum += fabs((double)b->pose.p[i] - (double)a->pose.p[i]);
+    }
+    return sum;
+}
+
 typedef struct view {
     int count; /* of vertices; 0: a round body, asked through its formulas */
     quad v[MAX_VERTICES][DIM];
