@@ -211,7 +211,7 @@ static real support_of(const shape *s, vec dir, vec *out)
     if (p) *out = add(map(p->m, *out), load(p->p));
     if (s->radius > 0) *out = add(*out, along(dir, s->radius));
     if (!(reach > 0)) return grows > 0 && unruly(grows) ? (real)NAN : reach;
-    return (p ? 4 * grows * reach + spread(load(p->p)) : reach) + s->radius + 16 * REAL_MIN;
+    return (p ? 4 * (grows * reach) + spread(load(p->p)) : reach) + s->radius + 16 * REAL_MIN;
 }
 
 /* Of both together: a bound must be finite, and is not known if one is not. */

@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: MIT */
+/* Legal input of extreme magnitude: the bracket holds the truth there too, and a refusal is for what cannot be
+ * answered. Each test is of one thing that once went wrong. */
+#include "draw.h"
+#include "truth.h"
+
+#define DRAWS 3000
+#define TINY ((double)REAL_MIN * (double)REAL_EPSILON)
+
+static body a, b, part[4];
+
+static int fresh(void **state)
+{
+    (void)state;
+    start_body(&a, ORIGIN);
+    start_body(&b, ORIGIN);
+    for (int i = 0; i < 4; i++) {
+        start_body(&part[i], ORIGIN);
+        bind(&part[i]);
+    }
+    bind(&a);
+    bind(&b);
+    return 0;
+}
+
+/* ---- what is expected ---- */
+
+typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
+static query_fn *const queries[2] = {V(distance), V(intersect)};
+
+enum refusal { NEVER, MAYBE, ALWAYS };
+
+/* The truth lies between lower and upper, which are as good as one. */
+static void expect_query(int query, int swap, const V(options) * o, quad lower, quad upper, enum refusal refusal)
+{
+    V(result) r, before;
+    memset(&before, 0x5a, sizeof before);
+    r = before;
+    int status = queries[query](swap ? &b.shape : &a.shape, swap ? &a.shape : &b.shape, o, &r);
+    if (status < 0) {
+        assert_int_equal(status, GJK_BAD_SUPPORT);
+        assert_int_not_equal(refusal, NEVER);
+        assert_memory_equal(&r, &before, sizeof r);
+        return;
+    }
+    assert_int_not_equal(refusal, ALWAYS);
+    if (query == 0) {
+        lower = positive(lower);
+        upper = positive(upper);
+    }
+    assert_true((quad)r.lower <= upper && lower <= (quad)r.upper);
+    assert_true(r.lower <= r.value && r.value <= r.upper);
+}
+
+static void expect(const V(options) * o, quad lower, quad upper, enum refusal refusal)
+{
+    for (int query = 0; query < 2; query++) {
+        expect_query(query, 0, o, lower, upper, refusal);
+        expect_query(query, 1, o, lower, upper, refusal);
+    }
+}
+
+static void expect_exactly(quad answer, enum refusal refusal) { expect(NULL, answer, answer, refusal); }
+
+static void expect_found(enum refusal refusal)
+{
+    static truth t;
+    find_truth(&t, &a, &b, 1);
+    expect(NULL, t.lower, t.upper, refusal);
+}
+
+/* One point, at that place but for rounding, and of plain sizes: the other body alone has to tell that care is needed.
+ */
+static void place_point(body *k, const double *at)
+{
+    k->kind = POINTS;
+    k->count = 1;
+    for (int i = 0; i < DIM; i++) {
+        k->v[0][i] = (real)0.5;
+        k->pose.p[i] = (real)(at[i] - 0.5);
+    }
+    bind(k);
+}
+
+/* ---- couples ---- */
+
+static void couple(body *whole, enum kind kind, const body *x, const body *y)
+{
+    whole->kind = kind;
+    whole->part[0] = x;
+    whole->part[1] = y;
+    bind(whole);
+}
+
+static void map_by(body *k, double size)
+{
+    for (int i = 0; i < DIM; i++) {
+        k->pose.m[i * DIM + i] = (real)size;
+    }
+}
+
+static void draw_points(body *k, draws *d, int count, double size)
+{
+    k->kind = POINTS;
+    k->count = count;
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < DIM; j++) {
+            k->v[i][j] = (real)(between(d, -1, 1) * size);
+        }
+    }
+    bind(k);
+}
+
+/* The part is of plain size, but on the way to its reach stood a product beyond all numbers: it was refused. */
+static void inner_map_overflows_reach(void **state)
+{
+    const double large = 0.5 * (double)REAL_MAX;
+    (void)state;
+    for (uint64_t k = 0; k < DRAWS; k++) {
+        draws d = draws_from(1, 1, k);
+        double turn[DIM * DIM], at[DIM];
+        fresh(NULL);
+        rotation(&d, HUGE_VAL, turn);
+        draw_points(&part[0], &d, DIM + 1, 1 / large);
+        for (int i = 0; i < DIM * DIM; i++) {
+            part[0].pose.m[i] = (real)(turn[i] * large);
+        }
+        couple(&a, k % 2 ? SUM : HULL, &part[0], &part[1]);
+        a.shape.pose = NULL; /* a pose would scale the direction */
+        for (int i = 0; i < DIM; i++) {
+            at[i] = between(&d, 2, 40);
+        }
+        place_point(&b, at);
+        expect_found(NEVER);
+    }
+}
+
+/* The point 0, of unknown reach: what it is part of is then of unknown reach too. */
+static void draw_nothing(body *k)
+{
+    k->kind = POINTS;
+    k->count = 1;
+    bind(k);
+    k->set.points.reach = 0;
+}
+
+/* The map of a couple's part turned the direction, itself of size up to 4, to infinity; what was then taken for the
+ * farthest point was another, and the bracket false. To be refused is fair: the reach can't be bounded by a number. */
+static void inner_map_overflows_direction(void **state)
+{
+    const double large = 0.95 * (double)REAL_MAX;
+    (void)state;
+    for (uint64_t k = 0; k < DRAWS; k++) {
+        draws d = draws_from(1, 2, k);
+        double at[DIM] = {0};
+        fresh(NULL);
+        draw_points(&part[0], &d, 2, 3);
+        part[0].kind = SEGMENT;
+        for (int i = 0; i < 2; i++) {
+            part[0].v[i][0] = (real)((double)part[0].v[i][0] / large);
+        }
+        bind(&part[0]);
+        part[0].pose.m[0] = (real)large;
+        draw_nothing(&part[1]);
+        couple(&a, SUM, &part[0], &part[1]);
+        a.shape.pose = NULL; /* a pose would scale the direction */
+        at[0] = between(&d, 20, 100);
+        at[1] = between(&d, -30, 30);
+        place_point(&b, at);
+        expect_found(MAYBE);
+    }
+}
+
+/* A point a hair above a face: the direction, short already, lost its digits in the small map of a couple's part. */
+static void inner_map_underflows_direction(void **state)
+{
+    const double small = 4 * (double)REAL_MIN;
+    (void)state;
+    for (uint64_t k = 0; k < DRAWS; k++) {
+        draws d = draws_from(1, 3, k);
+        double way[DIM], at[DIM], weight[DIM], sum = 0, gap = magnitude(&d, VARIANT_FLOAT ? -10 : -19, -2);
+        fresh(NULL);
+        draw_points(&part[0], &d, DIM + 1, 1 / small);
+        map_by(&part[0], small);
+        couple(&a, SUM, &part[0], &part[1]);
+        a.shape.pose = NULL; /* a pose would scale the direction */
+        unit(&d, way);
+        for (int i = 0; i < DIM; i++) {
+            weight[i] = between(&d, 0, 1);
+            sum += weight[i];
+        }
+        for (int j = 0; j < DIM; j++) {
+            at[j] = gap * way[j];
+            for (int i = 0; i < DIM; i++) {
+                at[j] += weight[i] / sum * ((double)part[0].v[i][j] * small);
+            }
+        }
+        place_point(&b, at);
+        expect_found(NEVER);
+    }
+}
+
+/* The inner couple's points are subnormal and rounded there, the outer's pose enlarges them: the inner couple answered
+ * for less rounding than was in them. */
+static void nested_couples(void **state)
+{
+    const double small = (double)REAL_MIN / 20000, large = VARIANT_FLOAT ? 1e30 : 1e300;
+    (void)state;
+    for (int known = 1; known >= 0; known--) {
+        for (int k = 0; k < 40; k++) {
+            fresh(NULL);
+            for (int i = 0; i < 2; i++) {
+                part[i].kind = POINTS;
+                part[i].count = 1;
+                part[i].v[0][0] = i == 0 ? (real)(1.0 / 3 + k / 31.0) : 0;
+                bind(&part[i]);
+                map_by(&part[i], small);
+                part[i].set.points.reach = known ? part[i].set.points.reach : 0;
+            }
+            couple(&part[2], SUM, &part[0], &part[1]);
+            map_by(&part[2], large * (1 + k / 7.0));
+            couple(&a, SUM, &part[2], &part[1]);
+            quad at = (quad)part[0].pose.m[0] * (quad)part[0].v[0][0] * (quad)part[2].pose.m[0];
+            expect_exactly(at, known ? NEVER : MAYBE);
+        }
+    }
+}
+
+/* ---- poses ---- */
+
+static void two_points(double x, double y, double map)
+{
+    fresh(NULL);
+    a.kind = b.kind = POINTS;
+    a.count = b.count = 1;
+    a.v[0][0] = (real)x;
+    b.v[0][0] = (real)y;
+    map_by(&a, map);
+    map_by(&b, map);
+    bind(&a);
+    bind(&b);
+    expect_exactly(((quad)a.v[0][0] - (quad)b.v[0][0]) * (quad)a.pose.m[0], NEVER);
+}
+
+/* The pose takes the body to subnormal size, or below the least number: the bounds, rounded there, missed the truth. */
+static void bodies_posed_into_subnormals(void **state)
+{
+    (void)state;
+    for (int k = 1; k < 40; k++) {
+        two_points(0.3, -0.4, k * TINY);
+        two_points(1, -0.7, k * TINY);
+    }
+    for (int k = 0; k < 40; k++) {
+        double x = ldexp(1 + k / 40.0, VARIANT_FLOAT ? -60 : -300);
+        two_points(x, -x, (double)REAL_MIN / 256);
+    }
+}
+
+/* The textbook's: no care for the size of dir. */
+static real least_square;
+static real naive_ball(const void *data, const real *dir, real *point)
+{
+    real square = 0;
+    (void)data;
+    for (int i = 0; i < DIM; i++) {
+        square += dir[i] * dir[i];
+    }
+    least_square = square < least_square ? square : least_square;
+    for (int i = 0; i < DIM; i++) {
+        point[i] = dir[i] / (real)sqrt((double)square);
+    }
+    return 1;
+}
+
+/* A pose that flattens the ball along the direction shortened it until its square was 0. */
+static void flattened_ball(void **state)
+{
+    const int last = DIM - 1, from = VARIANT_FLOAT ? -60 : -490, to = VARIANT_FLOAT ? -100 : -700;
+    (void)state;
+    for (int e = from; e > to; e--) {
+        double at[DIM] = {0};
+        fresh(NULL);
+        a.shape.support = naive_ball;
+        a.pose.m[last * DIM + last] = (real)ldexp(1, e);
+        at[last] = 1;
+        place_point(&b, at);
+        least_square = 1;
+        expect_exactly(1 - (quad)a.pose.m[last * DIM + last], NEVER);
+        assert_true(least_square > REAL_EPSILON);
+    }
+}
+
+/* ---- a warm start ---- */
+
+/* a: a triangle with one edge across the first axis. b: a wedge, its apex at 0 and farthest along that axis. */
+static void triangle_and_wedge(void)
+{
+    fresh(NULL);
+    a.kind = b.kind = POINTS;
+    a.count = 3;
+    a.v[0][1] = a.v[2][0] = 1;
+    a.v[1][1] = -1;
+    b.count = 1 + 2 * (DIM - 1);
+    for (int k = 1; k < b.count; k++) {
+        b.v[k][0] = -2;
+        b.v[k][(k + 1) / 2] = k % 2 ? 50 : -50;
+    }
+    bind(&a);
+    bind(&b);
+}
+
+/* What is remembered is the triangle against the apex; then the triangle is flattened and the edge shrunk to a speck on
+ * the apex. The direction to test, along the speck, was so short that its length came out wrong, and the lower bound
+ * with it. */
+static void warm_start_from_a_speck(void **state)
+{
+    const quad depth = 1 / quad_sqrt(1 + (quad)(16 * (DIM - 1)) / 10000); /* to a side of the wedge moved by 1 */
+    V(options) o = default_options();
+    V(cache) first, cache;
+    V(result) r;
+    (void)state;
+    triangle_and_wedge();
+    map_by(&b, 0);
+    b.pose.p[0] = (real)0.3;
+    b.pose.p[1] = (real)0.05;
+    b.pose.p[DIM - 1] += DIM - 2;
+    memset(&first, 0, sizeof first);
+    o.cache = &first;
+    assert_true(V(distance)(&a.shape, &b.shape, &o, &r) >= 0);
+    assert_int_equal(first.count, 3);
+    o.cache = &cache;
+    memset(&a.pose, 0, sizeof a.pose);
+    memset(&b.pose, 0, sizeof b.pose);
+    map_by(&b, -1);
+    a.pose.m[0] = 1;
+    for (int k = 0; k < 1000; k++) {
+        double speck = ldexp(1 + k % 50 / 50.0, (VARIANT_FLOAT ? -78 : -545) + k / 50);
+        a.pose.m[1] = (real)(k % 2 ? speck : -speck);
+        for (int query = 0; query < 2; query++) {
+            cache = first;
+            for (int i = 0; i < 3; i++) { /* in any order of its corners */
+                int from = (k / 2 % 2 ? i + k : 3 + k - i) % 3;
+                memcpy(cache.a[i], first.a[from], sizeof cache.a[i]);
+                memcpy(cache.b[i], first.b[from], sizeof cache.b[i]);
+            }
+            expect_query(query, 0, &o, -depth, -depth, NEVER);
+        }
+    }
+}
+
+/* ---- supports ---- */
+
+static int calls;
+static real soon_infinite(const void *data, const real *dir, real *point)
+{
+    (void)dir;
+    for (int i = 0; i < DIM; i++) {
+        point[i] = calls < *(const int *)data ? REAL_MAX / 2 : (real)INFINITY;
+    }
+    calls++;
+    return REAL_MAX;
+}
+
+/* Beside a reach of the largest number, the bound on points rounded to infinity and let an infinite point in. */
+static void infinite_point(void **state)
+{
+    (void)state;
+    for (int finite = 0; finite < 2; finite++) {
+        fresh(NULL);
+        a.shape.support = soon_infinite;
+        a.shape.data = &finite;
+        map_by(&a, 1e-10);
+        for (int query = 0; query < 2 - finite; query++) { /* the one finite point is proof enough for intersect */
+            for (int swap = 0; swap < 2; swap++) {
+                calls = 0;
+                expect_query(query, swap, NULL, 0, 0, ALWAYS);
+            }
+        }
+    }
+}
+
+/* From -1 to 1 on the first axis; along the axes it stops short by 0.1. */
+static real short_segment(const void *data, const real *dir, real *point)
+{
+    int oblique = 0;
+    (void)data;
+    for (int i = 1; i < DIM; i++) {
+        oblique |= dir[0] != 0 && dir[i] != 0;
+    }
+    memset(point, 0, DIM * sizeof *point);
+    point[0] = (real)(oblique ? 1 : 0.9);
+    point[0] = dir[0] < 0 ? -point[0] : point[0];
+    return 0;
+}
+
+/* The library's own survey of the reach did not count the slack: the farthest point was then beyond it, and refused. */
+static void short_by_the_slack(void **state)
+{
+    V(options) o = default_options();
+    const quad answer = quad_sqrt(8);
+    (void)state;
+    o.slack = (real)0.125;
+    a.shape.support = short_segment;
+    b.pose.p[0] = 3;
+    b.pose.p[1] = 2;
+    expect(&o, answer, answer, NEVER);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(inner_map_overflows_reach, fresh),
+        cmocka_unit_test_setup(inner_map_overflows_direction, fresh),
+        cmocka_unit_test_setup(inner_map_underflows_direction, fresh),
+        cmocka_unit_test_setup(nested_couples, fresh),
+        cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
+        cmocka_unit_test_setup(flattened_ball, fresh),
+        cmocka_unit_test_setup(warm_start_from_a_speck, fresh),
+        cmocka_unit_test_setup(infinite_point, fresh),
+        cmocka_unit_test_setup(short_by_the_slack, fresh),
+    };
+    return cmocka_run_group_tests_name("extreme magnitudes to " VARIANT, tests, NULL, NULL);
+}
