@@ -169,6 +169,28 @@ static void after_errors(void **state)
     }
 }
 
+/* A cloud edited in place so that the corner which vouches for the cache stays; its reach tells. */
+static void of_a_cloud_edited(void **state)
+{
+    real v[2][DIM] = {{-1}, {3}};
+    V(points) ends = {v[0], 2, 0, 0, 0};
+    V(pose) up = {.p = {0, 1}};
+    const V(shape) rod = {V(support_points), &ends, NULL, 0}, dot = {V(support_origin), NULL, &up, 0};
+    V(options) o = {0};
+    V(result) r;
+    (void)state;
+    start_cache();
+    o.size = sizeof o;
+    o.cache = &cache;
+    ends.reach = V(points_reach)(&ends);
+    assert_true(V(distance)(&rod, &dot, &o, &r) >= 0);
+    assert_true(r.lower <= 1 && 1 <= r.upper);
+    v[1][0] = -2; /* (-1, 0) is now the nearest, and still the first that is farthest up */
+    ends.reach = V(points_reach)(&ends);
+    assert_true(V(distance)(&rod, &dot, &o, &r) >= 0);
+    assert_true((quad)r.lower * (quad)r.lower <= 2 && 2 <= (quad)r.upper * (quad)r.upper);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -178,6 +200,7 @@ int main(void)
         cmocka_unit_test(of_moved_bodies),
         cmocka_unit_test(of_garbage),
         cmocka_unit_test(after_errors),
+        cmocka_unit_test(of_a_cloud_edited),
     };
     return cmocka_run_group_tests_name("caches of " VARIANT, tests, NULL, NULL);
 }

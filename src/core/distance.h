@@ -52,7 +52,7 @@ typedef struct search {
     unsigned borrowed;   /* slots that still hold them */
 } search;
 
-/* |v| is below half a rounding of the frame, which is of size 1 to 4: it has no direction. */
+/* |v| is below half a rounding of the frame, which is of size 1 to 2: it has no direction. */
 static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
 
 /* In a narrow simplex the weights are coarse, and their corner x off v by a slip across it; what the slip says of them
@@ -180,7 +180,7 @@ static inline int advance(search *q)
     vec v = nearest(s);
     real vv = dot(v, v);
     if (!(vv < q->vv)) { /* once more without assumptions */
-        /* of corners in a frame of size 1 to 4; a v as small as that itself has nothing to gain */
+        /* of corners in a frame of size 1 to 2; a v as small as that itself has nothing to gain */
         real noise = q->vv > 16 * UNIT * UNIT ? 16 * UNIT * root(q->vv) : 0;
         memcpy(s->at, at, sizeof at);
         s->n = n + 1;

@@ -94,8 +94,8 @@ static inline int bounded(real x) { return size(x) <= REAL_MAX; }
 /* Not of a plain size: under- and overflow need care. NaN is unruly. */
 static inline int unruly(real x) { return !(x > 1 / PLAIN && x < PLAIN); }
 
-/* A power of two that brings x, finite and not negative, into [1, 4); as near as the format allows where x is
- * subnormal. */
+/* A power of two that brings x, finite and not negative, into [1, 2), in the topmost binade [2, 4); as near as the
+ * format allows where x is subnormal. */
 static inline real leveler(real x)
 {
     bits e;
