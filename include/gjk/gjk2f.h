@@ -74,6 +74,8 @@ typedef struct gjk2f_options {
     float slack;         /* how far a support may fall short of the farthest point, in its set's own coordinates */
     gjk2f_cache *cache;    /* NULL: start cold */
     const void *reserved; /* NULL */
+    uint32_t tight;       /* 1: points, box, segment, triangle, origin: to the last bit, by exact arithmetic; else 0 */
+    uint32_t reserved_bits; /* 0 */
 } gjk2f_options;
 
 /* Never grows. Points are as good as the coordinates of their frame: far from its origin they round. */

@@ -4,7 +4,7 @@
 #define GJK_CORE_API_H
 
 #include "intersect.h"
-#include "shapes.h"
+#include "tight.h"
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
 
@@ -36,7 +36,8 @@ static int read_options(options *o, const options *given)
     if (o->max_steps == 0) o->max_steps = 256;
     if (o->max_steps > INT32_MAX / 4) o->max_steps = INT32_MAX / 4;
     return o->abs_tol >= 0 && o->rel_tol >= 0 && o->cutoff >= 0 && o->slack >= 0 && bounded(o->abs_tol) &&
-           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) && o->reserved == NULL;
+           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) && o->reserved == NULL && o->tight <= 1 &&
+           o->reserved_bits == 0;
 }
 
 /* What a later query of this pair may start from. */
@@ -138,16 +139,54 @@ static void witness(result *r, const search *q, const real weight[], const shape
     store(r->point_b, on_b);
 }
 
+/* The search has ended at what rounding can tell, and that is not enough: the caller asks for all digits, or gets fewer
+ * than rounding explains. */
+static int unsettled(const search *q, const options *o, enum end end, real upper)
+{
+    if ((end != STILL && end != INSIDE) || upper < 0) return 0;
+    return o->tight || upper - larger(q->lower, 0) > 4 * q->d.doubt;
+}
+
+enum proof { NONE, PROVEN_APART, PROVEN_MEETING };
+
+/* Finishes the search without rounding, and replaces what the result says of the distance. NONE, and nothing changed,
+ * where that can't be done. */
+static APART enum proof tighten(search *q, const shape *a, const shape *b, const goal *g, result *r, real weight[])
+{
+    finish f;
+    real ends[3];
+    if (count_corners(a) == 0 || count_corners(b) == 0) return NONE;
+    if (conclude(&f, q, a, b, g->max_steps) != STILL) return NONE;
+    enclose(&f, a->radius, b->radius, q->d.scale, ends);
+    if (!(ends[0] <= ends[1] && ends[1] <= ends[2] && bounded(ends[2]))) return NONE;
+    hand_back(&f, q, weight);
+    store(r->normal, q->normal);
+    r->upper = ends[2];
+    if (f.over.sign == 0) return PROVEN_MEETING;
+    r->lower = ends[0];
+    r->value = ends[1];
+    return PROVEN_APART;
+}
+
 /* What both questions share: the cores' search and its bracket with the radii taken off. FAULT: a support's answer was
  * none, or the bounds cross. */
 static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r,
-                      real weight[])
+                      real weight[], enum proof *proof)
 {
     real upper;
     enum end end = run(q, a, b, o, g, &upper, weight);
-    if (end == FAULT || !tell(q, g, &upper, &end) || !(q->lower <= upper)) return FAULT;
+    *proof = NONE;
+    if (end == FAULT) return FAULT;
     bracket(r, &q->d, q->lower, upper, g->radius);
     store(r->normal, q->normal);
+    if (unsettled(q, o, end, upper)) *proof = tighten(q, a, b, g, r, weight);
+    if (*proof == NONE || (*proof == PROVEN_MEETING && g->depth)) {
+        real known = r->upper;
+        if (!tell(q, g, &upper, &end) || !(q->lower <= upper)) return FAULT;
+        bracket(r, &q->d, q->lower, upper, g->radius);
+        store(r->normal, q->normal);
+        r->upper = smaller(r->upper, known);
+    }
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
@@ -169,6 +208,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     search q;
     result r;
     real weight[DIM + 1];
+    enum proof proof;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
@@ -181,13 +221,15 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
     g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
 
-    enum end end = solve(&q, a, b, &o, &g, &r, weight);
+    enum end end = solve(&q, a, b, &o, &g, &r, weight, &proof);
     if (end == FAULT) return GJK_BAD_SUPPORT;
     int meeting = r.upper <= 0;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
-    /* refine is NaN where its products overflow: larger passes it over */
-    r.value = smaller(larger(refine(&q, weight) * q.d.unscale - radius, r.lower), r.upper);
+    if (proof == NONE)
+        r.value = refine(&q, weight) * q.d.unscale - radius; /* NaN where products overflow: passed over */
+    if (proof == PROVEN_MEETING) r.value = 0;
+    r.value = smaller(larger(r.value, r.lower), r.upper);
     witness(&r, &q, weight, a, b, meeting);
     real rounding = (4 * q.d.doubt + 2 * q.d.slack) * q.d.unscale + 16 * UNIT * radius;
     r.status = distance_status(&r, &o, end, rounding);
@@ -201,6 +243,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     search q;
     result r;
     real weight[DIM + 1];
+    enum proof proof;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
@@ -208,13 +251,14 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .radius = radius,
               .abs_tol = -1, /* never */
               .early = radius > 0,
+              .depth = 1,
               .max_steps = (int)o.max_steps};
 
-    enum end end = solve(&q, a, b, &o, &g, &r, weight);
+    enum end end = solve(&q, a, b, &o, &g, &r, weight, &proof);
     if (end == FAULT) return GJK_BAD_SUPPORT;
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     witness(&r, &q, weight, a, b, r.upper < 0);
-    r.status = r.value != 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
+    r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;
     return r.status;
 }

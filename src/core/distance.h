@@ -24,6 +24,7 @@ typedef struct goal {
     real radius;           /* of both bodies together */
     real abs_tol, rel_tol; /* stop at upper - lower <= abs_tol + rel_tol * (upper - radius) */
     int early;             /* whether anything but beyond can end it early */
+    int depth;             /* whether touching cores are to be told from overlapping ones */
     int max_steps;
 } goal;
 

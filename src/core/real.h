@@ -51,6 +51,15 @@ typedef uint32_t bits;
 #define PLAIN ((real)0x1p30)
 #endif
 
+/* Kept out of its caller, whose stack frame would otherwise hold its own from the start. */
+#if defined(__GNUC__) || defined(__clang__)
+#define APART __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define APART __declspec(noinline)
+#else
+#define APART
+#endif
+
 /* Unit roundoff: a rounded result is off by this share at most. */
 #define UNIT ((real)1 / (real)((bits)2 << MANTISSA))
 /* The least number above 0. */
@@ -104,6 +113,49 @@ static inline real leveler(real x)
     e = (e == 0 ? 1 : e) << MANTISSA;
     memcpy(&x, &e, sizeof x);
     return x;
+}
+
+/* x = m 2^e with m in [1, 2): e. x is a normal number. */
+static inline int exponent_of(real x)
+{
+    bits b;
+    memcpy(&b, &x, sizeof b);
+    return (int)(b >> MANTISSA & EXPONENT_MAX) - (int)(EXPONENT_MAX / 2);
+}
+
+/* x times 2^e, rounded once where x is of size 1. */
+static real raised(real x, int e)
+{
+    const int half = (int)(EXPONENT_MAX / 4); /* of the range: subnormal after two steps at the earliest */
+    while (e != 0) {
+        int step = e > half ? half : e < -half ? -half : e;
+        bits b = (bits)(step + (int)(EXPONENT_MAX / 2)) << MANTISSA;
+        real power;
+        memcpy(&power, &b, sizeof power);
+        x *= power;
+        e -= step;
+    }
+    return x;
+}
+
+/* The next number below. */
+static real lower_neighbour(real x)
+{
+    bits b;
+    if (x == 0) return -TINY;
+    memcpy(&b, &x, sizeof b);
+    b = x > 0 ? b - 1 : b + 1;
+    memcpy(&x, &b, sizeof x);
+    return x;
+}
+
+/* A number below (x + rest) 2^e, the highest or the one under it; x is of size 1, the rest below a rounding of it. */
+static real below(real x, real rest, int e)
+{
+    real r = x;
+    if (!(rest >= 0)) r = lower_neighbour(x + rest);
+    real shrunk = raised(r, e);
+    return raised(shrunk, -e) > r ? lower_neighbour(shrunk) : shrunk;
 }
 
 #endif

@@ -196,6 +196,37 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
 }
 #endif
 
+/* The corners of a set that is known to be the hull of so many; 0: it is not. The support's data have been found good.
+ */
+static size_t count_corners(const shape *s)
+{
+    if (s->support == pub(support_points)) return ((const points *)s->data)->count;
+    if (s->support == pub(support_box)) return (size_t)1 << DIM;
+    if (s->support == pub(support_segment)) return 2;
+#if DIM == 3
+    if (s->support == pub(support_triangle)) return 3;
+#endif
+    return s->support == pub(support_origin);
+}
+
+static vec nth_corner(const shape *s, size_t n)
+{
+    vec r = axis(0, 0);
+    if (s->support == pub(support_points)) {
+        const points *p = s->data;
+        return load(p->v + n * stride_of(p));
+    }
+    if (s->support == pub(support_box)) {
+        r = load(((const box *)s->data)->half);
+        EACH(r.c[i] = n >> i & 1 ? -r.c[i] : r.c[i]);
+    }
+    if (s->support == pub(support_segment)) return load(((const segment *)s->data)->v[n]);
+#if DIM == 3
+    if (s->support == pub(support_triangle)) return load(((const triangle *)s->data)->v[n]);
+#endif
+    return r;
+}
+
 /* One of a couple, pose and radius included. Its reach counts all that passes through the rounding here, what
  * underflows too, so that the licence of 8 roundings holds for the couple. A reach that is not known can't be charged
  * for a pose of extreme size: NaN. */

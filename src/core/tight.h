@@ -1,0 +1,408 @@
+/* SPDX-License-Identifier: MIT */
+/* The end of a search between hulls of known corners, without rounding: from the simplex that the search left, on
+ * until no corner of either set lies nearer. Corners, normals, weights and the choice between equally far corners are
+ * exact, so there is nothing to tolerate: each step brings the simplex nearer in truth, the last one is the answer, and
+ * contact is exactly 0. Only the distance itself is rounded, once, at the end. */
+#ifndef GJK_CORE_TIGHT_H
+#define GJK_CORE_TIGHT_H
+
+#include "distance.h"
+#include "dyadic.h"
+#include "shapes.h"
+
+typedef struct dyadics {
+    dyadic c[DIM];
+} dyadics;
+
+typedef struct finish {
+    const shape *a, *b;
+    vec x[DIM + 1], y[DIM + 1]; /* corners of the sets, each in its own coordinates */
+    dyadics w[DIM + 1];         /* of the difference */
+    int n;
+    int lost;               /* a decision was asked of a number that is */
+    dyadics way;            /* along the nearest point; 0 where that is the origin */
+    dyadic weight[DIM + 1]; /* of the corners there, in proportion */
+    dyadic over, under;     /* the distance: over / sqrt(under), or the root of that */
+    int squared;
+} finish;
+
+/* All decisions pass here. */
+static int side(finish *f, const dyadic *x)
+{
+    if (x->sign != LOST) return x->sign;
+    f->lost = 1;
+    return 0;
+}
+
+static dyadics difference_of(const dyadics *a, const dyadics *b)
+{
+    dyadics r;
+    for (int i = 0; i < DIM; i++) r.c[i] = plus(&a->c[i], &b->c[i], -1);
+    return r;
+}
+
+static dyadic inner(const dyadics *a, const dyadics *b)
+{
+    dyadic r = times(&a->c[0], &b->c[0]);
+    for (int i = 1; i < DIM; i++) {
+        dyadic t = times(&a->c[i], &b->c[i]);
+        r = plus(&r, &t, 1);
+    }
+    return r;
+}
+
+static void reverse(dyadics *a)
+{
+    for (int i = 0; i < DIM; i++)
+        if (a->c[i].sign != LOST) a->c[i].sign = -a->c[i].sign;
+}
+
+#if DIM == 2
+/* a turned by a quarter, which is the normal of an edge. */
+static dyadics quarter(const dyadics *a)
+{
+    dyadics r = {{a->c[1], a->c[0]}};
+    if (r.c[0].sign != LOST) r.c[0].sign = -r.c[0].sign;
+    return r;
+}
+#else
+/* p q - r s */
+static dyadic minor(const dyadic *p, const dyadic *q, const dyadic *r, const dyadic *s)
+{
+    dyadic t = times(p, q), u = times(r, s);
+    return plus(&t, &u, -1);
+}
+
+static dyadics outer(const dyadics *a, const dyadics *b)
+{
+    dyadics r;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        r.c[i] = minor(&a->c[j], &b->c[k], &a->c[k], &b->c[j]);
+    }
+    return r;
+}
+#endif
+
+/* The way along a facet's normal, to the side where the facet lies as seen from the origin, and its distance. */
+static void along_normal(finish *f, const dyadics *n, const dyadics *p)
+{
+    f->over = inner(n, p);
+    f->under = inner(n, n);
+    f->squared = 0;
+    f->way = *n;
+    int turn = side(f, &f->over);
+    if (turn < 0) reverse(&f->way);
+    if (turn == 0) f->way = (dyadics){{nought()}};
+    if (f->over.sign != LOST) f->over.sign = turn == 0 ? 0 : 1;
+}
+
+/* ---- the nearest point ---- */
+
+static int between(finish *f, int i, int j)
+{
+    const dyadics *p = &f->w[i], *q = &f->w[j];
+    dyadics e = difference_of(q, p);
+    f->weight[i] = inner(q, &e);
+    f->weight[j] = inner(p, &e);
+    if (side(f, &f->weight[i]) <= 0 || side(f, &f->weight[j]) >= 0) return 0;
+    f->weight[j].sign = 1;
+#if DIM == 2
+    dyadics n = quarter(&e);
+    along_normal(f, &n, p);
+#else
+    dyadics n = outer(p, &e);
+    f->over = inner(&n, &n);
+    f->under = inner(&e, &e);
+    f->squared = 1;
+    for (int k = 0; k < DIM; k++) {
+        dyadic s = times(&p->c[k], &f->under), t = times(&e.c[k], &f->weight[j]);
+        f->way.c[k] = plus(&s, &t, 1);
+    }
+#endif
+    return 1;
+}
+
+#if DIM == 3
+static int within(finish *f, int i, int j, int k)
+{
+    const dyadics *p = &f->w[i];
+    dyadics a = difference_of(&f->w[j], p), b = difference_of(&f->w[k], p), n = outer(&a, &b), t = outer(&b, p);
+    f->weight[j] = inner(&n, &t);
+    if (side(f, &f->weight[j]) <= 0) return 0;
+    t = outer(p, &a);
+    f->weight[k] = inner(&n, &t);
+    if (side(f, &f->weight[k]) <= 0) return 0;
+    along_normal(f, &n, p);
+    f->weight[i] = plus(&f->under, &f->weight[j], -1);
+    f->weight[i] = plus(&f->weight[i], &f->weight[k], -1);
+    return side(f, &f->weight[i]) > 0;
+}
+#endif
+
+/* The full simplex: the origin is on the inner side of each facet, and how far from it is the weight of the corner
+ * opposite. */
+static int inside(finish *f)
+{
+    for (int i = 0; i <= DIM; i++) {
+        const dyadics *p = &f->w[(i + 1) % (DIM + 1)];
+        dyadics a = difference_of(&f->w[(i + 2) % (DIM + 1)], p), b = difference_of(&f->w[i], p);
+#if DIM == 2
+        dyadics n = quarter(&a);
+#else
+        dyadics c = difference_of(&f->w[(i + 3) % (DIM + 1)], p), n = outer(&a, &c);
+#endif
+        dyadic whole = inner(&n, &b);
+        f->weight[i] = inner(&n, p);
+        int outward = side(f, &f->weight[i]);
+        if (outward == 0 || side(f, &whole) != -outward) return 0;
+        f->weight[i].sign = 1;
+    }
+    f->over = nought();
+    f->under = dyadic_of(1);
+    f->way = (dyadics){{nought()}};
+    return 1;
+}
+
+/* Whether the origin projects into the interior of what the corners of the mask span. Sets weights, way and distance.
+ */
+static int carries(finish *f, unsigned mask)
+{
+    int k[DIM + 1], n = 0;
+    for (int i = 0; i < f->n; i++)
+        if (mask >> i & 1) k[n++] = i;
+    if (n == 2) return between(f, k[0], k[1]);
+#if DIM == 3
+    if (n == 3) return within(f, k[0], k[1], k[2]);
+#endif
+    if (n > DIM) return inside(f);
+    f->weight[k[0]] = f->under = dyadic_of(1);
+    f->over = inner(&f->w[k[0]], &f->w[k[0]]);
+    f->squared = 1;
+    f->way = f->w[k[0]];
+    return 1;
+}
+
+/* No corner is nearer along the way than those of the mask. */
+static int foremost(finish *f, unsigned mask)
+{
+    int k = 0;
+    while (!(mask >> k & 1)) k++;
+    for (int i = 0; i < f->n; i++) {
+        if (mask >> i & 1) continue;
+        dyadics e = difference_of(&f->w[i], &f->w[k]);
+        dyadic rise = inner(&e, &f->way);
+        if (side(f, &rise) < 0) return 0;
+    }
+    return 1;
+}
+
+/* Keeps the corners that carry the nearest point: those in whose span it is interior, and which no other corner is
+ * nearer than. There are such, of any corners whatsoever: if it is a combination of some, then of few that are not
+ * degenerate (Caratheodory). 0: numbers are lost. */
+static int shrink(finish *f)
+{
+    unsigned mask = (1u << f->n) - 1;
+    while (mask > 0 && !(carries(f, mask) && foremost(f, mask))) mask--;
+    int n = 0;
+    for (int i = 0; i < f->n; i++) {
+        if (!(mask >> i & 1)) continue;
+        f->w[n] = f->w[i];
+        f->x[n] = f->x[i];
+        f->y[n] = f->y[i];
+        f->weight[n++] = f->weight[i];
+    }
+    f->n = n;
+    return !f->lost && mask > 0;
+}
+
+/* ---- the farthest corner ---- */
+
+static dyadics placed(const shape *s, vec x)
+{
+    dyadics r;
+    for (int i = 0; i < DIM; i++) {
+        r.c[i] = dyadic_of(s->pose ? s->pose->p[i] : x.c[i]);
+        for (int j = 0; j < DIM && s->pose; j++) {
+            dyadic m = dyadic_of(s->pose->m[DIM * i + j]), t = dyadic_of(x.c[j]);
+            t = times(&m, &t);
+            r.c[i] = plus(&r.c[i], &t, 1);
+        }
+    }
+    return r;
+}
+
+/* The way as the set sees it. */
+static dyadics pulled(const shape *s, const dyadics *way)
+{
+    dyadics r = *way;
+    for (int j = 0; j < DIM && s->pose; j++) {
+        r.c[j] = nought();
+        for (int i = 0; i < DIM; i++) {
+            dyadic t = dyadic_of(s->pose->m[DIM * i + j]);
+            t = times(&t, &way->c[i]);
+            r.c[j] = plus(&r.c[j], &t, 1);
+        }
+    }
+    return r;
+}
+
+/* Rounded, and brought to size 1/16 .. 1/8. */
+static vec rough(const dyadics *d)
+{
+    vec r = axis(0, 0);
+    int e[DIM], top = 0, found = 0;
+    for (int i = 0; i < DIM; i++) {
+        r.c[i] = leading(&d->c[i], &e[i]).high * (real)d->c[i].sign;
+        if (d->c[i].sign == 0 || (found && e[i] <= top)) continue;
+        top = e[i];
+        found = 1;
+    }
+    for (int i = 0; i < DIM; i++) r.c[i] = raised(r.c[i], e[i] - top - 3);
+    return r;
+}
+
+/* From x to the corner of the set that lies farthest along the way, if any lies farther; and how much farther, with the
+ * way's length as unit. Rounded heights tell which corners can be the farthest; among these numbers are exact. */
+static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
+{
+    dyadics g = pulled(s, way);
+    dyadic gain = nought();
+    vec d = rough(&g), from = *x;
+    size_t n = count_corners(s);
+    real top = -REAL_MAX, far = 0;
+    for (size_t i = 0; i < n; i++) {
+        vec p = nth_corner(s, i);
+        top = larger(dot(p, d), top);
+        far = larger(peak(p), far);
+    }
+    top -= 16 * UNIT * (spread(d) * far) + 8 * TINY; /* d is off by a rounding, each height by DIM */
+    for (size_t i = 0; i < n; i++) {
+        vec p = nth_corner(s, i);
+        if (dot(p, d) < top || same(p, *x)) continue;
+        dyadic rise = nought();
+        for (int j = 0; j < DIM; j++) {
+            dyadic to = dyadic_of(p.c[j]), at = dyadic_of(from.c[j]), e = plus(&to, &at, -1);
+            e = times(&e, &g.c[j]);
+            rise = plus(&rise, &e, 1);
+        }
+        dyadic more = plus(&rise, &gain, -1);
+        if (side(f, &more) <= 0) continue;
+        gain = rise;
+        *x = p;
+    }
+    return gain;
+}
+
+/* ---- the search ---- */
+
+static void take_in(finish *f, vec x, vec y)
+{
+    dyadics a = placed(f->a, x), b = placed(f->b, y);
+    f->x[f->n] = x;
+    f->y[f->n] = y;
+    f->w[f->n++] = difference_of(&a, &b);
+}
+
+/* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; FAULT: numbers were lost. */
+static enum end conclude(finish *f, search *q, const shape *a, const shape *b, int max_steps)
+{
+    f->a = a;
+    f->b = b;
+    f->n = f->lost = 0;
+    for (int i = 0; i < q->s.n; i++) take_in(f, corner(&q->s, i)->x, corner(&q->s, i)->y);
+    while (shrink(f)) {
+        vec x = f->x[0], y = f->y[0];
+        dyadics back = f->way;
+        reverse(&back);
+        dyadic up = climb(f, b, &f->way, &y), down = climb(f, a, &back, &x), gain = plus(&up, &down, 1);
+        if (side(f, &gain) <= 0) break;
+        if (q->steps >= max_steps) return f->lost ? FAULT : OPEN;
+        q->steps++;
+        q->d.calls += 2;
+        take_in(f, x, y);
+    }
+    return f->lost ? FAULT : STILL;
+}
+
+/* ---- the answer ---- */
+
+static twin root_of(twin a)
+{
+    real r = root(a.high);
+    twin square = product_of(r, r);
+    return sum_of(r, ((a.high - square.high) - square.low + a.low) / (2 * r));
+}
+
+static twin quotient_of(twin a, twin b)
+{
+    real q = a.high / b.high;
+    twin back = product_of(q, b.high);
+    return sum_of(q, ((a.high - back.high) - back.low + a.low - q * b.low) / b.high);
+}
+
+/* The cores' distance: a twin, good to 64 UNIT^2 of itself, times 2^exponent. */
+static twin core_distance(const finish *f, int *exponent)
+{
+    int over_exponent, under_exponent;
+    twin over = leading(&f->over, &over_exponent), under = leading(&f->under, &under_exponent);
+    if (f->squared) {
+        over = quotient_of(over, under);
+        over_exponent -= under_exponent;
+    } else if (under_exponent & 1) {
+        under = (twin){2 * under.high, 2 * under.low};
+        under_exponent--;
+    }
+    if (f->squared && over_exponent & 1) {
+        over = (twin){2 * over.high, 2 * over.low};
+        over_exponent--;
+    }
+    *exponent = f->squared ? over_exponent / 2 : over_exponent - under_exponent / 2;
+    if (!(over.high > 0)) return (twin){0, 0};
+    return f->squared ? root_of(over) : quotient_of(over, root_of(under));
+}
+
+/* The bracket of the distance less the radii, each end the nearest number its way; the value between. */
+static void enclose(const finish *f, real radius_a, real radius_b, real scale, real bracket[3])
+{
+    int exponent;
+    twin d = core_distance(f, &exponent);
+    real error = 64 * UNIT * UNIT * d.high;
+    if (radius_a + radius_b > 0) { /* in the search's frame, where nothing that counts underflows */
+        int level = exponent_of(scale);
+        d = (twin){raised(d.high, exponent + level), raised(d.low, exponent + level)};
+        error = raised(error, exponent + level) + 4 * TINY;
+        twin radius = sum_of(-radius_a * scale, -radius_b * scale);
+        gather(&d, (twin){radius.high, 0});
+        gather(&d, (twin){radius.low, 0});
+        d = sum_of(d.high, d.low);
+        error += 4 * UNIT * UNIT * (size(d.high) + size(radius.high));
+        exponent = -level;
+    }
+    bracket[0] = below(d.high, d.low - error, exponent);
+    bracket[1] = raised(d.high, exponent);
+    bracket[2] = -below(-d.high, -d.low - error, exponent);
+}
+
+/* What f found, as the search's own: the simplex, its weights, the normal. */
+static void hand_back(const finish *f, search *q, real weight[DIM + 1])
+{
+    int e[DIM + 1], top = 0;
+    vec v = rough(&f->way);
+    clear(&q->s);
+    q->borrowed = 0;
+    for (int i = 0; i < f->n; i++) {
+        vertex *p = spare(&q->s);
+        p->x = f->x[i];
+        p->y = f->y[i];
+        p->w = corner_of(&q->d, p->x, p->y);
+        q->s.n++;
+        weight[i] = leading(&f->weight[i], &e[i]).high;
+        if (i == 0 || e[i] > top) top = e[i];
+    }
+    for (int i = 0; i < f->n; i++) weight[i] = raised(weight[i], e[i] - top);
+    normalize(weight, f->n);
+    if (peak(v) > 0) q->normal = mul(v, -1 / length(v));
+}
+
+#endif
