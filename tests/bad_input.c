@@ -510,7 +510,62 @@ static void bad_couples(void **state)
     }
 }
 
+/* ---- ties ---- */
+
+static void expect_point(const body *k, real x, real y)
+{
+    const real up[DIM] = {0, 1};
+    real point[DIM];
+    memset(point, 0x5a, sizeof point);
+    assert_true(k->shape.support(k->shape.data, up, point) > 0);
+    assert_true(point[0] == x && point[1] == y);
+}
+
+/* Of points equally far the first is handed out, of a box the one on the side of the zero's sign. */
+static void ties(void **state)
+{
+    static const enum kind kinds[] = {POINTS, SEGMENT, TRIANGLE};
+    static body part[2];
+    const real down_left[DIM] = {-(real)0.0, -1};
+    real point[DIM];
+    (void)state;
+    for (int k = 0; k < (DIM == 3 ? 3 : 2); k++) {
+        for (int turn = -1; turn <= 1; turn += 2) {
+            start_body(&a, kinds[k]);
+            a.count = kinds[k] == SEGMENT ? 2 : 3;
+            a.v[0][1] = a.v[1][1] = 1;
+            a.v[0][0] = (real)turn;
+            a.v[1][0] = (real)-turn;
+            bind(&a);
+            expect_point(&a, (real)turn, 1);
+            if (kinds[k] == POINTS) {
+                part[(1 - turn) / 2] = a;
+            }
+        }
+    }
+    bind(&part[0]);
+    bind(&part[1]);
+    start_body(&a, HULL);
+    a.part[0] = &part[1];
+    a.part[1] = &part[0];
+    bind(&a);
+    expect_point(&a, -1, 1);
+    fresh(NULL);
+    expect_point(&a, 1, 1);
+    a.shape.support(a.shape.data, down_left, point);
+    assert_true(point[0] == -1 && point[1] == -1);
+}
+
 /* ---- options ---- */
+
+/* The struct ended before the cache once, then after it, and then after the pointer behind that; after tight alone it
+ * would, were that as wide as a pointer, which is harmless. */
+static int is_older(uint32_t size)
+{
+    return size == offsetof(V(options), cache) || size == offsetof(V(options), reserved) ||
+           size == offsetof(V(options), tight) ||
+           (size == offsetof(V(options), reserved_bits) && sizeof(void *) == sizeof(uint32_t));
+}
 
 static void option_sizes(void **state)
 {
@@ -519,10 +574,10 @@ static void option_sizes(void **state)
         unsigned char bytes[1024];
         uint32_t size;
     } u;
-    const uint32_t whole = (uint32_t)sizeof(V(options)), short_of = (uint32_t)offsetof(V(options), cache);
+    const uint32_t whole = (uint32_t)sizeof(V(options));
     (void)state;
     for (uint32_t size = 0; size <= 1024; size++) {
-        int older = size == short_of || size == short_of + sizeof(void *);
+        int older = is_older(size);
         memset(&u, 0, sizeof u);
         u.size = size;
         if (size > whole ? 1 : older || size == whole) {
@@ -549,15 +604,98 @@ static void option_sizes(void **state)
 static void older_options(void **state)
 {
     V(options) o;
+    int ages = 0;
     (void)state;
     memset(&o, 0xff, sizeof o);
-    o.size = (uint32_t)offsetof(V(options), cache);
     o.max_steps = 0;
     o.abs_tol = o.rel_tol = o.cutoff = o.slack = 0;
+    for (uint32_t size = 0; size < sizeof o; size++) {
+        if (!is_older(size)) {
+            continue;
+        }
+        if (size > offsetof(V(options), cache)) {
+            o.cache = NULL;
+        }
+        if (size > offsetof(V(options), reserved)) {
+            o.reserved = NULL;
+        }
+        if (size > offsetof(V(options), tight)) {
+            o.tight = 1;
+        }
+        o.size = size;
+        expect_truth_with(&o, 1);
+        ages++;
+    }
+    assert_in_range(ages, 3, 4);
+    o.size = (uint32_t)sizeof o; /* and now all of it is read */
+    o.tight = 1;
+    expect_with(&o, GJK_BAD_ARGUMENT);
+    o.reserved_bits = 0;
     expect_truth_with(&o, 1);
-    o.size += (uint32_t)sizeof(void *);
-    o.cache = NULL;
-    expect_truth_with(&o, 1);
+}
+
+static void tight(void **state)
+{
+    static const enum kind kinds[] = {POINTS, BOX, SEGMENT, TRIANGLE, BALL, CYLINDER, CONE, DISC, ORIGIN};
+    static const uint32_t others[] = {2, 3, 255, 256, 0x80000000u, 0x80000001u, UINT32_MAX};
+    V(options) o = default_options();
+    (void)state;
+    for (int k = 0; k < (int)(sizeof kinds / sizeof *kinds); k++) {
+        if (DIM == 2 && kinds[k] >= TRIANGLE && kinds[k] <= DISC) {
+            continue;
+        }
+        start_body(&a, kinds[k]);
+        a.count = 1; /* all of one point */
+        bind(&a);
+        for (o.tight = 0; o.tight <= 1; o.tight++) {
+            expect_truth_with(&o, 2);
+        }
+    }
+    fresh(NULL);
+    for (int k = 0; k < (int)(sizeof others / sizeof *others); k++) {
+        o.tight = others[k];
+        expect_with(&o, GJK_BAD_ARGUMENT);
+    }
+    for (o.tight = 0; o.tight <= 1; o.tight++) {
+        expect_truth_with(&o, 1);
+        for (int bit = 0; bit < 32; bit++) {
+            o.reserved_bits = (uint32_t)1 << bit;
+            expect_with(&o, GJK_BAD_ARGUMENT);
+        }
+        o.reserved_bits = 0;
+    }
+}
+
+/* With tight as without: what is refused stays refused, and the other options keep their meaning. */
+static void tight_refuses_the_same(void **state)
+{
+    V(options) o = default_options();
+    V(cache) cache;
+    (void)state;
+    o.tight = 1;
+    a.half[0] = (real)NAN;
+    bind(&a);
+    expect_with(&o, GJK_BAD_SUPPORT);
+    cloud(4);
+    a.v[1][1] = (real)INFINITY;
+    expect_with(&o, GJK_BAD_SUPPORT);
+    cloud(4);
+    a.set.points.reach = (real)0.5; /* less than its points */
+    expect_with(&o, GJK_BAD_SUPPORT);
+    fresh(NULL);
+    a.pose.m[0] = (real)NAN;
+    expect_with(&o, GJK_BAD_ARGUMENT);
+    fresh(NULL);
+    a.shape.radius = (real)0.5;
+    expect_truth_with(&o, 0.5);
+    memset(&cache, 0, sizeof cache);
+    o.cache = &cache;
+    o.max_steps = 1;
+    expect_truth_with(&o, 0.5);
+    o.max_steps = 0;
+    o.cutoff = (real)0.25;
+    o.slack = (real)0.125;
+    expect_truth_with(&o, 0.5);
 }
 
 static void option_numbers(void **state)
@@ -669,9 +807,12 @@ int main(void)
         cmocka_unit_test_setup(points_that_contradict, fresh),
         cmocka_unit_test_setup(noise, fresh),
         cmocka_unit_test_setup(bad_couples, fresh),
+        cmocka_unit_test_setup(ties, fresh),
         cmocka_unit_test_setup(option_sizes, fresh),
         cmocka_unit_test_setup(older_options, fresh),
         cmocka_unit_test_setup(option_numbers, fresh),
+        cmocka_unit_test_setup(tight, fresh),
+        cmocka_unit_test_setup(tight_refuses_the_same, fresh),
         cmocka_unit_test_setup(magnitudes, fresh),
         cmocka_unit_test_setup(sizes_worlds_apart, fresh),
     };

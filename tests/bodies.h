@@ -5,7 +5,7 @@
 
 #include "variant.h"
 
-#define MAX_POINTS 64
+#define MAX_POINTS 64 /* in a body; a cloud has its points elsewhere */
 
 enum kind {
     POINTS,
@@ -18,13 +18,15 @@ enum kind {
     BALL,
     ORIGIN,
     SUM,
-    HULL
+    HULL,
+    CLOUD /* points by the thousand, which stay where they are when the body is copied */
 };
 
 typedef struct body {
     enum kind kind;
     int count;                  /* of points */
     real v[MAX_POINTS][DIM];    /* points, segment, triangle */
+    const real *cloud;          /* cloud: its coordinates, point by point */
     real half[DIM];             /* box */
     real radius, half_length;   /* ball, cylinder, cone, disc; the rounding is shape.radius */
     const struct body *part[2]; /* sum, hull */
@@ -54,6 +56,18 @@ static inline void start_body(body *b, enum kind kind)
     }
 }
 
+/* The coordinates of a body that is spelled by its points. */
+static inline const real *points_of(const body *b) { return b->kind == CLOUD ? b->cloud : b->v[0]; }
+
+/* Whether the body is spelled by its corners: tight answers are promised for these, with a radius or without. */
+static inline int has_corners(const body *b)
+{
+    return b->kind == POINTS || b->kind == CLOUD || b->kind == SEGMENT || b->kind == TRIANGLE || b->kind == BOX ||
+           b->kind == ORIGIN;
+}
+
+static inline int is_couple(const body *b) { return b->kind == SUM || b->kind == HULL; }
+
 /* Makes b->shape speak of b. Again after each copy of a body, parts first. */
 static inline void bind(body *b)
 {
@@ -61,8 +75,9 @@ static inline void bind(body *b)
     b->shape.pose = &b->pose;
     switch (b->kind) {
     case POINTS:
+    case CLOUD:
         b->shape.support = V(support_points);
-        b->set.points.v = b->v[0];
+        b->set.points.v = points_of(b);
         b->set.points.count = (size_t)b->count;
         b->set.points.stride = 0;
         b->set.points.reserved = 0;
@@ -131,7 +146,7 @@ static inline void print_points(FILE *f, const body *b)
 {
     for (int i = 0; i < b->count; i++) {
         fprintf(f, "%s", i ? ", " : "[");
-        print_numbers(f, b->v[i], DIM);
+        print_numbers(f, points_of(b) + i * DIM, DIM);
     }
     fprintf(f, "]");
 }
@@ -140,10 +155,10 @@ static inline void print_points(FILE *f, const body *b)
 static inline void print_body(FILE *f, const body *b)
 {
     static const char *const name[] = {"points", "box",       "segment", "triangle", "cylinder", "cone",
-                                       "disc",   "ellipsoid", "points",  "sum",      "hull"};
+                                       "disc",   "ellipsoid", "points",  "sum",      "hull",     "points"};
     real rows[DIM * (DIM + 1)];
     fprintf(f, "{\"shape\": \"%s\"", name[b->kind]);
-    if (b->kind == POINTS) {
+    if (b->kind == POINTS || b->kind == CLOUD) {
         fprintf(f, ", \"points\": ");
         print_points(f, b);
     } else if (b->kind == SEGMENT || b->kind == TRIANGLE) {

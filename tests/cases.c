@@ -80,7 +80,51 @@ static void check(const test_case *c, int holds, const char *what, const V(resul
     }
 }
 
-static double max_error, max_round_error;
+static double max_error, max_round_error, max_ulps;
+static long tight_cases;
+
+/* The step from the number that x rounds to, to the next larger one. */
+static double ulp_of(quad x)
+{
+    int e;
+    frexp(fmax((double)x, (double)REAL_MIN), &e);
+    return ldexp((double)REAL_EPSILON, e - 1);
+}
+
+static int solved_tight(const body *b) { return b->kind <= TRIANGLE || b->kind == ORIGIN; }
+
+/* With options.tight: of points, boxes, segments, triangles and single points to the last bit, contact as exactly 0,
+ * and whether they meet is always told. Of other shapes as good an answer as without. */
+static void tight_case(const test_case *c, const body *a, const body *b, V(cache) * cache, quad low, quad high)
+{
+    int exact = solved_tight(a) && solved_tight(b);
+    double ulp = ulp_of(high), ulps;
+    quad v;
+    V(options) o = default_options();
+    V(result) r;
+    memset(&r, 0, sizeof r);
+    o.tight = 1;
+    o.cache = cache;
+    check(c, V(distance)(&a->shape, &b->shape, &o, &r) >= 0, "tight distance fails", &r);
+    check(c, (quad)r.lower <= high && (quad)r.upper >= low, "the tight bracket misses the truth", &r);
+    check(c, r.lower <= r.value && r.value <= r.upper, "the tight value is outside its bracket", &r);
+    if (exact) {
+        v = (quad)r.value;
+        ulps = (double)(v > high ? v - high : v < low ? low - v : 0) / ulp;
+        tight_cases++;
+        max_ulps = fmax(max_ulps, ulps);
+        check(c, ulps <= 1, "the tight value is off", &r);
+        check(c, (quad)r.upper - (quad)r.lower <= (quad)(2 * ulp), "the tight bracket is wide", &r);
+        check(c, c->relation == K(APART) || r.upper == 0, "contact is not exactly 0", &r);
+        check(c, c->relation != K(APART) || r.lower > 0, "not proven to be apart", &r);
+    }
+    check(c, V(intersect)(&a->shape, &b->shape, &o, &r) >= 0, "tight intersect fails", &r);
+    check(c, (quad)r.lower <= high, "the tight lower is above the truth", &r);
+    check(c, !(r.lower > 0) || c->relation == K(APART), "wrongly called apart, with tight", &r);
+    check(c, !(r.upper < 0) || c->relation == K(OVERLAPPING), "wrongly called overlapping, with tight", &r);
+    check(c, !exact || (r.lower > 0) == (c->relation == K(APART)), "apart or not is not told", &r);
+    check(c, !exact || (r.upper <= 0) == (c->relation != K(APART)), "meeting or not is not told", &r);
+}
 
 static void one_case(const test_case *c, V(cache) * cache)
 {
@@ -120,7 +164,9 @@ static void one_case(const test_case *c, V(cache) * cache)
     check(c, !(r.upper < 0) || c->relation == K(OVERLAPPING), "wrongly called overlapping", &r);
     check(c, (quad)r.lower <= high, "lower is above the truth", &r);
     check(c, r.lower > 0 || (double)low <= TELLS * U * span, "not seen to be apart", &r);
-    check(c, r.upper < 0 || (double)-t.upper <= TELLS * U * span, "not seen to overlap", &r);
+    check(c, r.upper <= 0 || (double)-t.upper <= TELLS * U * span, "not seen to meet", &r);
+    check(c, !(r.upper <= 0) || c->relation != K(APART), "wrongly said to meet", &r);
+    tight_case(c, a, b, cache, low, high);
 }
 
 static void cold(void **state)
@@ -131,6 +177,8 @@ static void cold(void **state)
     }
     printf("%-6s %zu cases: error at most %.2f u * scale for polytopes, %.2f for round shapes\n", VARIANT, C(_count),
            max_error, max_round_error);
+    printf("%-6s tight: %ld cases, error at most %.3f ulp\n", VARIANT, tight_cases, max_ulps);
+    assert_true(tight_cases > 100);
     assert_true(C(_count) > 100);
     assert_int_equal(failures, 0);
 }

@@ -54,9 +54,12 @@ static void expect_query(int query, int swap, const V(options) * o, quad lower, 
 
 static void expect(const V(options) * o, quad lower, quad upper, enum refusal refusal)
 {
-    for (int query = 0; query < 2; query++) {
-        expect_query(query, 0, o, lower, upper, refusal);
-        expect_query(query, 1, o, lower, upper, refusal);
+    V(options) with = o ? *o : default_options();
+    for (with.tight = 0; with.tight < 2; with.tight++) {
+        for (int query = 0; query < 2; query++) {
+            expect_query(query, 0, &with, lower, upper, refusal);
+            expect_query(query, 1, &with, lower, upper, refusal);
+        }
     }
 }
 

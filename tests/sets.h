@@ -6,7 +6,7 @@
 #include "bodies.h"
 #include "quad.h"
 
-#define MAX_VERTICES 64
+#define MAX_VERTICES 2048
 
 static inline quad positive(quad x) { return x > 0 ? x : 0; }
 
@@ -75,7 +75,7 @@ static int list_vertices(const body *b, quad (*out)[DIM])
     }
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < DIM; j++) {
-            out[i][j] = (quad)b->v[i][j];
+            out[i][j] = (quad)points_of(b)[i * DIM + j];
         }
     }
     return count;

@@ -232,10 +232,9 @@ static void find_depth(const view *a, const view *b, quad size, quad *shallow, q
     *shallow = -4 * size;
     *deep = 4 * size;
     if (!first_polytope(a, b, &p, size, flat)) {
-        /* No width across flat: the depth is 0 where the sets meet at all, which the caller knows. */
+        /* No width across flat, to this precision: no depth. Whether the sets meet at all is for the caller to say. */
         *deep = beyond(a, b, flat, w);
         *deep = *deep > 0 ? *deep : 0;
-        *shallow = 0;
         return;
     }
     for (int step = 0; step < steps; step++) {

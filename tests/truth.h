@@ -34,6 +34,7 @@ typedef struct view {
     double size;                    /* the largest |coordinate| */
     const body *body;
     quad origin[DIM];
+    quad unit; /* what the coordinates here are multiples of: a power of two */
 } view;
 
 #define T double
@@ -61,13 +62,13 @@ static void see(view *v, const body *b, const quad *origin)
     v->body = b;
     v->count = list_vertices(b, v->v);
     v->size = 0;
+    v->unit = 1;
     memcpy(v->origin, origin, sizeof v->origin);
     for (int k = 0; k < v->count; k++) {
         memcpy(x, v->v[k], sizeof x);
         posed(&b->pose, origin, x, v->v[k]);
         for (int i = 0; i < DIM; i++) {
-            v->near[k][i] = (double)v->v[k][i];
-            v->size = fmax(v->size, fabs(v->near[k][i]));
+            v->size = fmax(v->size, fabs((double)v->v[k][i]));
         }
     }
     for (int k = 0; k < 2 * DIM && v->count == 0; k++) {
@@ -75,6 +76,19 @@ static void see(view *v, const body *b, const quad *origin)
         dir[k / 2] = k % 2 ? -1 : 1;
         farthest_of_body(b, origin, 0, dir, x);
         v->size = fmax(v->size, fabs((double)x[k / 2]));
+    }
+}
+
+/* Goes over to coordinates that count the unit. */
+static void count_in(view *v, quad unit)
+{
+    v->unit = unit;
+    v->size = (double)((quad)v->size / unit);
+    for (int k = 0; k < v->count; k++) {
+        for (int i = 0; i < DIM; i++) {
+            v->v[k][i] /= unit;
+            v->near[k][i] = (double)v->v[k][i];
+        }
     }
 }
 
@@ -103,6 +117,9 @@ static int quad_farthest(const view *v, const quad *dir, quad *point)
     int at = -1;
     if (v->count == 0) {
         farthest_of_body(v->body, v->origin, 0, dir, point);
+        for (int i = 0; i < DIM; i++) {
+            point[i] /= v->unit;
+        }
         return -1;
     }
     for (int i = 0; i < DIM; i++) {
@@ -139,36 +156,49 @@ static int quad_farthest(const view *v, const quad *dir, quad *point)
 
 typedef struct truth {
     quad lower, upper; /* of the signed separation, radii included */
+    quad unit;         /* about the size of the pair; what the views and mid count in */
     quad scale;        /* the largest |coordinate| of the pair, the bodies' own origins included, relative to mid */
     int apart;         /* the cores, without their radii, have no point in common */
     int certified;     /* upper - lower <= 1e-28 of the size; round cores seldom are */
     view a, b;
-    quad mid[DIM]; /* a point between the bodies, relative to the origin of a */
+    quad mid[DIM]; /* a point between the bodies, relative to the origin of a, in units */
 } truth;
+
+/* A power of two near x, which is within the range of double; 1 where that is good enough for products in double. */
+static quad unit_for(quad x)
+{
+    int e;
+    frexp((double)x, &e);
+    return abs(e) < 80 ? 1 : (quad)ldexp(1, e / 2) * (quad)ldexp(1, e - e / 2);
+}
 
 static quad scale_of(const truth *t, const body *a, const body *b)
 {
-    double scale = 0;
+    quad scale = 0;
     for (int k = 0; k < 2; k++) {
         const view *v = k ? &t->b : &t->a;
         const body *whole = k ? b : a;
-        double radius = (double)whole->shape.radius;
-        for (int j = 0; j < DIM; j++) {
-            scale = fmax(scale, fabs((double)((quad)whole->pose.p[j] - v->origin[j] - t->mid[j])));
-        }
+        quad radius = (quad)whole->shape.radius / t->unit, most = 0;
         for (int i = 0; i < v->count; i++) {
             for (int j = 0; j < DIM; j++) {
-                scale = fmax(scale, fabs((double)(v->v[i][j] - t->mid[j])) + radius);
+                quad x = quad_abs(v->v[i][j] - t->mid[j]);
+                most = x > most ? x : most;
             }
         }
         for (int i = 0; i < 2 * DIM && v->count == 0; i++) {
             quad dir[DIM] = {0}, x[DIM];
             dir[i / 2] = i % 2 ? -1 : 1;
             quad_farthest(v, dir, x);
-            scale = fmax(scale, fabs((double)(x[i / 2] - t->mid[i / 2])) + radius);
+            x[0] = quad_abs(x[i / 2] - t->mid[i / 2]);
+            most = x[0] > most ? x[0] : most;
+        }
+        scale = most + radius > scale ? most + radius : scale;
+        for (int j = 0; j < DIM; j++) {
+            quad x = quad_abs(((quad)whole->pose.p[j] - v->origin[j]) / t->unit - t->mid[j]);
+            scale = x > scale ? x : scale;
         }
     }
-    return scale;
+    return scale * t->unit;
 }
 
 /* The simplex where a solver in double ends, for the one in quad to go on from: what it costs is saved, and what it
@@ -194,7 +224,7 @@ static void start_from_double(const view *a, const view *b, quad_slow *r)
  */
 static void find_truth(truth *t, const body *a, const body *b, int depth)
 {
-    quad origin[DIM], size, radius = (quad)a->shape.radius + (quad)b->shape.radius;
+    quad origin[DIM], size, error, radius;
     quad_slow r;
     for (int i = 0; i < DIM; i++) {
         origin[i] = (quad)a->pose.p[i];
@@ -202,6 +232,12 @@ static void find_truth(truth *t, const body *a, const body *b, int depth)
     see(&t->a, a, origin);
     see(&t->b, b, origin);
     size = (quad)t->a.size + (quad)t->b.size;
+    t->unit = unit_for(size);
+    count_in(&t->a, t->unit);
+    count_in(&t->b, t->unit);
+    size /= t->unit;
+    radius = ((quad)a->shape.radius + (quad)b->shape.radius) / t->unit;
+    error = (size + radius) * (quad)1e-32; /* a hundred roundings, more than the solver makes */
     memset(&r, 0, sizeof r);
     if (t->a.count && t->b.count) {
         start_from_double(&t->a, &t->b, &r);
@@ -226,6 +262,8 @@ static void find_truth(truth *t, const body *a, const body *b, int depth)
         }
     }
     t->certified = t->apart || depth ? t->upper - t->lower <= size * (quad)1e-28 : r.upper <= size * (quad)1e-28;
+    t->lower = (t->lower - error) * t->unit;
+    t->upper = (t->upper + error) * t->unit;
     t->scale = scale_of(t, a, b);
 }
 

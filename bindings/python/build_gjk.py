@@ -14,6 +14,10 @@ from cffi import FFI
 
 REGION = re.compile(r"/\*\[cdef\]\*/(.*?)/\*\[/cdef\]\*/", re.DOTALL)
 
+# The library knows its ready-made supports by their addresses, and what cffi calls the address of a function is that of
+# a wrapper around it: these are the functions themselves.
+READY = re.compile(r"^(?:double|float) (gjk\w+)_(support_\w+)\(", re.MULTILINE)
+
 # What a shape made from a Python function has for its support.
 CALLBACK = """
 extern "Python" {real} {name}_python_support(const void *data, const {real} dir[{dim}], {real} point[{dim}]);
@@ -36,10 +40,16 @@ def callbacks() -> str:
 
 def main(output: str, *headers: str) -> None:
     ffi = FFI()
+    includes, names = "", ""
     for header in headers:
-        ffi.cdef(declarations(Path(header)))
+        text = declarations(Path(header))
+        ffi.cdef(text)
+        includes += f'#include "{Path(header).as_posix()}"\n'
+        for variant, stem in READY.findall(text):
+            ffi.cdef(f"static {variant}_support_fn *const {variant}_ready_{stem};")
+            names += f"#define {variant}_ready_{stem} (&{variant}_{stem})\n"
     ffi.cdef(callbacks())
-    ffi.set_source("gjk._gjk", "".join(f'#include "{Path(header).as_posix()}"\n' for header in headers))
+    ffi.set_source("gjk._gjk", includes + names)
     ffi.emit_c_code(output)
 
 

@@ -5,6 +5,7 @@
 
 #include "intersect.h"
 #include "tight.h"
+#include "widen.h"
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
 
@@ -89,7 +90,9 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         }
         if (end != FAULT) {
             if (end == INSIDE && room(&q->s) > q->d.doubt) *upper = q->d.doubt - room(&q->s);
-            if (q->lower <= *upper && settled(q)) break;
+            if (q->lower <= *upper && settled(q) &&
+                !(warm && (end == STILL || end == INSIDE) && coarse(q, *upper) && !g->exact))
+                break;
         }
         if (!warm) return FAULT;
         warm = 0;
@@ -111,23 +114,35 @@ static int tell(search *q, const goal *g, real *upper, enum end *end)
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
 static void bracket(result *r, const difference *d, real lower, real upper, real radius)
 {
-    real tiny = d->wild ? 2 * TINY : 0, near = lower * d->unscale, far = upper * d->unscale;
+    real near = lower * d->unscale, far = upper * d->unscale;
     real doubt_near = radius > 0 ? 4 * UNIT * (size(near) + radius) : 0;
     real doubt_far = radius > 0 ? 4 * UNIT * (size(far) + radius) : 0;
-    r->lower = near - radius - doubt_near - tiny;
-    r->upper = far - radius + doubt_far + tiny;
+    r->lower = larger(near - radius - doubt_near, -REAL_MAX);
+    r->upper = far - radius + doubt_far;
+    if (d->wild && size(near) < REAL_MIN) r->lower -= 2 * TINY; /* unscaled by a rounding */
+    if (d->wild && size(far) < REAL_MIN) r->upper += 2 * TINY;
+}
+
+/* The body's point in the caller's frame. */
+static vec witness_of(const body *k, const pose *o, const simplex *s, const real weight[], size_t member,
+                      const difference *d)
+{
+    vec x = blend(s, weight, member, k->grain);
+    if (!k->posed) return mul(x, d->unscale);
+    vec p = load(o->p), from = mul(p, d->scale);
+    x = map(k->m, x);
+    return bounded(peak(from)) ? mul(add(x, from), d->unscale) : add(mul(x, d->unscale), p);
 }
 
 /* The witnesses, from the cores' to the shapes': each moves toward the other by its radius, or, where the radii reach
  * across, both move to one point between. */
-static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b, int meeting)
+static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b)
 {
-    vec on_a = blend(&q->s, weight, offsetof(vertex, x)), on_b = blend(&q->s, weight, offsetof(vertex, y));
-    vec way = blend(&q->s, weight, offsetof(vertex, w));
+    vec on_a = witness_of(&q->d.a, a->pose, &q->s, weight, offsetof(vertex, x), &q->d);
+    vec on_b = witness_of(&q->d.b, b->pose, &q->s, weight, offsetof(vertex, y), &q->d);
+    vec way = blend(&q->s, weight, offsetof(vertex, w), 1);
     real l = length(way), radius = a->radius + b->radius;
-    if (a->pose) on_a = add(map(a->pose->m, on_a), load(a->pose->p));
-    if (b->pose) on_b = add(map(b->pose->m, on_b), load(b->pose->p));
-    if (meeting || l * q->d.unscale < radius) {
+    if (r->upper <= 0 || l * q->d.unscale < radius) {
         real share = a->radius > 0 ? a->radius / radius : 0;
         on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
     } else if (radius > 0) {
@@ -139,64 +154,86 @@ static void witness(result *r, const search *q, const real weight[], const shape
     store(r->point_b, on_b);
 }
 
-/* The search has ended at what rounding can tell, and that is not enough: the caller asks for all digits, or gets fewer
- * than rounding explains. */
-static int unsettled(const search *q, const options *o, enum end end, real upper)
+/* The search has ended at what rounding can tell, and that is not enough: the sign is open; or so near to contact the
+ * way of v is noise; or the caller asks for all digits, or gets fewer than rounding explains, or a corner that promised
+ * to be nearer was not. */
+static int unanswered(const search *q, const result *r, const options *o, const goal *g, real upper)
 {
-    if ((end != STILL && end != INSIDE) || upper < 0) return 0;
-    return o->tight || upper - larger(q->lower, 0) > 4 * q->d.doubt;
+    real near = g->radius * q->d.scale, margin = 8 * q->d.doubt + 16 * UNIT * near;
+    if (r->lower <= 0 && r->upper > 0) return 1;
+    if (q->lower <= near + margin && upper >= near - margin) return 1;
+    return !g->sign_only && r->upper > 0 && (o->tight || q->stuck || coarse(q, upper));
 }
 
-enum proof { NONE, PROVEN_APART, PROVEN_MEETING };
+/* The bracket of the distance is wider than asked. */
+static int wanting(const result *r, const options *o)
+{
+    return r->upper - larger(r->lower, 0) > o->abs_tol + o->rel_tol * r->upper;
+}
 
-/* Finishes the search without rounding, and replaces what the result says of the distance. NONE, and nothing changed,
- * where that can't be done. */
-static APART enum proof tighten(search *q, const shape *a, const shape *b, const goal *g, result *r, real weight[])
+/* Finishes the search without rounding, and replaces what the result says of the distance. Anything but STILL: that
+ * can't be done, and nothing is changed. */
+static APART enum end tighten(search *q, const shape *a, const shape *b, const goal *g, result *r, real weight[])
 {
     finish f;
     real ends[3];
-    if (count_corners(a) == 0 || count_corners(b) == 0) return NONE;
-    if (conclude(&f, q, a, b, g->max_steps) != STILL) return NONE;
-    enclose(&f, a->radius, b->radius, q->d.scale, ends);
-    if (!(ends[0] <= ends[1] && ends[1] <= ends[2] && bounded(ends[2]))) return NONE;
+    enum end end = conclude(&f, q, a, b, g->max_steps);
+    if (end != STILL) return end;
+    if (!enclose(&f, a->radius, b->radius, ends)) return FAULT;
     hand_back(&f, q, weight);
     store(r->normal, q->normal);
-    r->upper = ends[2];
-    if (f.over.sign == 0) return PROVEN_MEETING;
-    r->lower = ends[0];
+    if (f.over.sign != 0) r->lower = ends[0]; /* else that bounds no depth */
     r->value = ends[1];
-    return PROVEN_APART;
+    r->upper = smaller(r->upper, ends[2]); /* which may know of an overlap */
+    witness(r, q, weight, a, b);
+    return STILL;
 }
 
-/* What both questions share: the cores' search and its bracket with the radii taken off. FAULT: a support's answer was
- * none, or the bounds cross. */
-static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r,
-                      real weight[], enum proof *proof)
+/* The search's own answer. The value is rounded once, the radii taken off, and no farther from what the bounds say
+ * without their allowance for rounding; NaN where products overflow. */
+static void answer(const search *q, const shape *a, const shape *b, const goal *g, real upper, const real weight[],
+                   result *r)
 {
-    real upper;
-    enum end end = run(q, a, b, o, g, &upper, weight);
-    *proof = NONE;
-    if (end == FAULT) return FAULT;
     bracket(r, &q->d, q->lower, upper, g->radius);
     store(r->normal, q->normal);
-    if (unsettled(q, o, end, upper)) *proof = tighten(q, a, b, g, r, weight);
-    if (*proof == NONE || (*proof == PROVEN_MEETING && g->depth)) {
-        real known = r->upper;
-        if (!tell(q, g, &upper, &end) || !(q->lower <= upper)) return FAULT;
-        bracket(r, &q->d, q->lower, upper, g->radius);
-        store(r->normal, q->normal);
-        r->upper = smaller(r->upper, known);
+    witness(r, q, weight, a, b);
+    r->value = 0;
+    if (g->sign_only) return;
+    real low = q->lower + q->d.doubt, high = upper - q->d.doubt;
+    twin l = refine(q, weight);
+    if (l.high > high) l = (twin){high, 0};
+    if (l.high < low) l = (twin){low, 0};
+    twin value = sum_of(l.high, -g->radius * q->d.scale);
+    r->value = (value.high + (value.low + l.low)) * q->d.unscale;
+}
+
+/* What both questions share: the cores' search, its bracket with the radii taken off, and a finer answer where rounding
+ * stood in the way. FAULT: a support's answer was none, or the bounds cross. */
+static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    real upper, weight[DIM + 1];
+    enum end end = run(q, a, b, o, g, &upper, weight);
+    int still = end == STILL || end == INSIDE, finer = GJK_BAD_SUPPORT;
+    /* the distance of known corners needs no probing, the exact finish tells more; overlap does */
+    if (end == FAULT || (still && !(g->exact && !g->sign_only) && !tell(q, g, &upper, &end))) return FAULT;
+    if (!(q->lower <= upper)) return FAULT;
+    answer(q, a, b, g, upper, weight, r);
+    if (still && g->exact && unanswered(q, r, o, g, upper)) {
+        enum end closer = tighten(q, a, b, g, r, weight);
+        if (closer != FAULT) end = closer;
+    } else if (still && !g->exact && r->upper > 0 && (g->sign_only ? r->lower <= 0 : wanting(r, o))) {
+        finer = ask_sister(q, a, b, o, g, r);
     }
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
-    return end;
+    return finer == GJK_LIMIT ? OPEN : end;
 }
 
 static int distance_status(const result *r, const options *o, enum end end, real rounding)
 {
     real width = r->upper - r->lower, asked = o->abs_tol + o->rel_tol * r->upper;
-    if (end == BEYOND) return GJK_DECIDED;
+    if (o->cutoff > 0 && r->lower > o->cutoff) return GJK_DECIDED;
     if (width <= asked || end == WITHIN) return GJK_OK;
     if (end == OPEN) return GJK_LIMIT;
     return o->abs_tol == 0 && o->rel_tol == 0 && width <= rounding ? GJK_OK : GJK_FLOOR;
@@ -207,8 +244,6 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     options o;
     search q;
     result r;
-    real weight[DIM + 1];
-    enum proof proof;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
@@ -216,22 +251,18 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
               .radius = radius,
               .abs_tol = o.abs_tol,
               .rel_tol = o.rel_tol,
+              .exact = has_corners(a) && has_corners(b),
               .max_steps = (int)o.max_steps};
     if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
     g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
 
-    enum end end = solve(&q, a, b, &o, &g, &r, weight, &proof);
+    enum end end = solve(&q, a, b, &o, &g, &r);
     if (end == FAULT) return GJK_BAD_SUPPORT;
-    int meeting = r.upper <= 0;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
-    if (proof == NONE)
-        r.value = refine(&q, weight) * q.d.unscale - radius; /* NaN where products overflow: passed over */
-    if (proof == PROVEN_MEETING) r.value = 0;
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    witness(&r, &q, weight, a, b, meeting);
-    real rounding = (4 * q.d.doubt + 2 * q.d.slack) * q.d.unscale + 16 * UNIT * radius;
+    real rounding = 4 * q.d.doubt * q.d.unscale + 2 * q.d.slack * q.d.unscale + 16 * UNIT * radius;
     r.status = distance_status(&r, &o, end, rounding);
     *out = r;
     return r.status;
@@ -242,8 +273,6 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     options o;
     search q;
     result r;
-    real weight[DIM + 1];
-    enum proof proof;
     if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
@@ -251,13 +280,13 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .radius = radius,
               .abs_tol = -1, /* never */
               .early = radius > 0,
-              .depth = 1,
+              .sign_only = 1,
+              .exact = has_corners(a) && has_corners(b),
               .max_steps = (int)o.max_steps};
 
-    enum end end = solve(&q, a, b, &o, &g, &r, weight, &proof);
+    enum end end = solve(&q, a, b, &o, &g, &r);
     if (end == FAULT) return GJK_BAD_SUPPORT;
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
-    witness(&r, &q, weight, a, b, r.upper < 0);
     r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;
     return r.status;

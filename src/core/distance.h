@@ -24,7 +24,8 @@ typedef struct goal {
     real radius;           /* of both bodies together */
     real abs_tol, rel_tol; /* stop at upper - lower <= abs_tol + rel_tol * (upper - radius) */
     int early;             /* whether anything but beyond can end it early */
-    int depth;             /* whether touching cores are to be told from overlapping ones */
+    int sign_only;         /* stop at the first proof of the sign */
+    int exact;             /* both sets' corners are known: the end of the search can be without rounding */
     int max_steps;
 } goal;
 
@@ -47,6 +48,7 @@ typedef struct search {
     vec normal;    /* unit, from A to B: where lower was found */
     int pending;   /* s's spare slot holds a corner that was asked for and not taken in */
     int repeated;  /* because it stood in the simplex already */
+    int stuck;     /* because it brought v no nearer, although it lies lower along v */
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
@@ -67,7 +69,7 @@ static vec take_back(const search *q, vec x, real weight[DIM + 1])
         change(&q->s, slip, better);
         for (int k = 0; k < q->s.n; k++) better[k] = weight[k] - better[k];
         normalize(better, q->s.n);
-        vec y = blend(&q->s, better, offsetof(vertex, w));
+        vec y = blend(&q->s, better, offsetof(vertex, w), 1);
         if (!(dot(y, y) < dot(x, x))) break;
         memcpy(weight, better, sizeof better);
         x = y;
@@ -83,7 +85,7 @@ static vec take_side(const search *q, vec x, real weight[DIM + 1])
     if (side.n == 1 || !(peak(sub(x, q->v)) > 4 * UNIT)) return x;
     nearest_of_all(&side, 0, 0, 0);
     weigh(&side, better);
-    vec y = blend(&side, better, offsetof(vertex, w));
+    vec y = blend(&side, better, offsetof(vertex, w), 1);
     if (!(dot(y, y) < dot(x, x))) return x;
     for (int i = 0; i < q->s.n; i++) {
         weight[i] = 0;
@@ -96,16 +98,18 @@ static vec take_side(const search *q, vec x, real weight[DIM + 1])
 static real certify(const search *q, real weight[DIM + 1])
 {
     weigh(&q->s, weight);
-    vec x = blend(&q->s, weight, offsetof(vertex, w));
+    vec x = blend(&q->s, weight, offsetof(vertex, w), 1);
     x = take_side(q, take_back(q, x, weight), weight);
     return length(x) * (1 + 8 * UNIT) + q->d.doubt;
 }
 
-/* A blend of the corners' w, x or y, to more digits than one number holds: the first corner, and the way from there. */
-static vec fine_blend(const simplex *s, const real weight[DIM + 1], size_t member, vec *low)
+/* A blend of the corners' x or y, times their grain, to more digits than one number holds: the first corner, and the
+ * way from there. */
+static vec fine_blend(const simplex *s, const real weight[DIM + 1], size_t member, real grain, vec *low)
 {
-    vec first = member_of(corner(s, 0), member), way = axis(0, 0), r;
-    for (int i = 1; i < s->n; i++) way = add(way, mul(sub(member_of(corner(s, i), member), first), weight[i]));
+    vec first = mul(member_of(corner(s, 0), member), grain), way = axis(0, 0), r;
+    for (int i = 1; i < s->n; i++)
+        way = add(way, mul(sub(mul(member_of(corner(s, i), member), grain), first), weight[i]));
     for (int i = 0; i < DIM; i++) {
         twin t = sum_of(first.c[i], way.c[i]);
         r.c[i] = t.high;
@@ -117,9 +121,9 @@ static vec fine_blend(const simplex *s, const real weight[DIM + 1], size_t membe
 /* The corner of A - B that the weights single out, without the roundings of the simplex's own: high is their blend. */
 static vec single_out(const search *q, const real weight[DIM + 1], vec *low)
 {
-    vec x_low, y_low, x = fine_blend(&q->s, weight, offsetof(vertex, x), &x_low);
-    vec y = fine_blend(&q->s, weight, offsetof(vertex, y), &y_low);
-    vec high = blend(&q->s, weight, offsetof(vertex, w));
+    vec x_low, y_low, x = fine_blend(&q->s, weight, offsetof(vertex, x), q->d.a.grain, &x_low);
+    vec y = fine_blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain, &y_low);
+    vec high = blend(&q->s, weight, offsetof(vertex, w), 1);
     *low = remainder_of(&q->d, x, x_low, y, y_low, high);
     return high;
 }
@@ -138,13 +142,13 @@ static int sharpen(search *q, const real weight[DIM + 1])
     return 1;
 }
 
-/* |v| as near as one number can say it, measured along v: what the weights are off moves the corner that they single
- * out across v, and so counts for nothing. */
-static real refine(const search *q, const real weight[DIM + 1])
+/* |v| to more digits than one number can say, measured along v: what the weights are off moves the corner that they
+ * single out across v, and so counts for nothing. */
+static twin refine(const search *q, const real weight[DIM + 1])
 {
     vec w_low, w = single_out(q, weight, &w_low);
     real l = root(q->vv);
-    if (!(l > 0)) return 0;
+    if (!(l > 0)) return (twin){0, 0};
     twin along = {0, dot(q->v, w_low)}, square = product_of(-l, l);
     for (int i = 0; i < DIM; i++) {
         gather(&along, product_of(q->v.c[i], w.c[i]));
@@ -153,7 +157,7 @@ static real refine(const search *q, const real weight[DIM + 1])
     real height = along.high / l; /* l is short by square / 2 l: so is the quotient too large */
     twin back = product_of(-height, l);
     gather(&back, along);
-    return height + (back.high + back.low - height * (square.high + square.low) / (2 * l)) / l;
+    return (twin){height, (back.high + back.low - height * (square.high + square.low) / (2 * l)) / l};
 }
 
 /* The height of w, the corner least along v, bounds the separation from below. */
@@ -208,6 +212,15 @@ static void project(search *q, int whole)
     q->vv = dot(q->v, q->v);
 }
 
+/* By how much a corner lies lower along v than the simplex, by the way from there, which is not rounded like the
+ * corners themselves: of points that lie close together it may be all there is to see. */
+static real fine_gap(const search *q, const vertex *p)
+{
+    const vertex *from = corner(&q->s, 0);
+    vec x = place(&q->d.a, sub(from->x, p->x)), y = place(&q->d.b, sub(from->y, p->y));
+    return dot(q->v, sub(x, y));
+}
+
 /* What the corner in the spare slot shows; OPEN where the search may go on. */
 static inline enum end consider(search *q, const goal *g)
 {
@@ -221,11 +234,18 @@ static inline enum end consider(search *q, const goal *g)
         return BEYOND;
     }
     if (q->s.n > 0) {
-        real gap = q->vv - dot(q->v, last->w);
+        real gap = dot(q->v, sub(q->v, last->w)), noise = UNIT / 2 * dot_size(q->v, last->w);
         for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), last);
-        if (q->repeated || !(gap > UNIT / 2 * dot_size(q->v, last->w))) return STILL;
+        if (q->repeated) return STILL;
+        if (!(gap > noise)) {
+            q->stuck = fine_gap(q, last) > noise;
+            return STILL;
+        }
     }
-    if (!advance(q)) return STILL;
+    if (!advance(q)) {
+        q->stuck = 1;
+        return STILL;
+    }
     if (q->s.n > DIM) {
         if (room(&q->s) > q->d.doubt || q->sidesteps++ >= SIDESTEPS) return INSIDE;
         project(q, 0);
@@ -272,16 +292,18 @@ static enum end descend(search *q, const goal *g)
     }
 }
 
-/* descend, and where v was too coarse to prove what it found, again along the sharpened v. upper and weight are those
- * of the simplex that is left. */
+/* The bracket of the distance is wider than roundings of its corners explain. */
+static int coarse(const search *q, real upper) { return upper - larger(q->lower, 0) > 4 * q->d.doubt + q->d.slack; }
+
+/* descend, and where v was too coarse to prove what it found, again along the sharpened v; unless that is left to an
+ * exact finish. upper and weight are those of the simplex that is left. */
 static enum end search_on(search *q, const goal *g, real *upper, real weight[DIM + 1])
 {
     enum end end = descend(q, g);
     *upper = certify(q, weight);
-    for (int i = 0; i < SHARPENINGS && end == STILL; i++) {
-        if (*upper - q->lower <= 4 * q->d.doubt + q->d.slack) break;
-        if (q->steps >= g->max_steps) return OPEN;
+    for (int i = 0; i < SHARPENINGS && end == STILL && coarse(q, *upper) && !g->exact; i++) {
         if (!sharpen(q, weight)) break;
+        if (q->steps >= g->max_steps) return OPEN;
         if (!look(q)) return FAULT;
         q->repeated = 0;
         end = descend(q, g);
@@ -294,10 +316,11 @@ static void blank(search *q)
 {
     clear(&q->s);
     q->vv = REAL_MAX;
-    q->lower = -REAL_MAX;
+    q->lower = -4; /* deeper than the frame is wide no overlap is */
     q->normal = axis(0, 1);
     q->pending = 0;
     q->repeated = 0;
+    q->stuck = 0;
     q->sidesteps = 0;
     q->steps = 0;
     q->lender = NULL;
@@ -319,7 +342,7 @@ static vec away(const search *q)
 static int open_cold(search *q, const shape *a, const shape *b, real slack)
 {
     blank(q);
-    start(&q->d, a, b);
+    if (!start(&q->d, a, b)) return 0;
     q->v = first_direction(&q->d);
     return meet(&q->d, q->v, slack, spare(&q->s));
 }
@@ -332,7 +355,7 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     real reach[2];
     vertex first;
     blank(q);
-    start(&q->d, a, b);
+    if (!start(&q->d, a, b)) return 0;
     if (k->count == 0 || k->count > DIM + 1) return 0;
     if (k->support[0] != a->support || k->support[1] != b->support) return 0;
     if (k->data[0] != a->data || k->data[1] != b->data) return 0;
@@ -353,8 +376,8 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     project(q, 1);
     vec dir = vanished(q) ? away(q) : q->v;
     if (!ask(&q->d, dir, &first, reach)) return 0;
-    if (reach[0] != 0 && larger(reach[0], 8 * REAL_MIN) != k->reach_a) return 0;
-    if (reach[1] != 0 && larger(reach[1], 8 * REAL_MIN) != k->reach_b) return 0;
+    if (reach[0] != 0 && reach[0] != k->reach_a) return 0;
+    if (reach[1] != 0 && reach[1] != k->reach_b) return 0;
     q->repeated = known(q, &first);
     if (!vanished(q)) {
         *spare(&q->s) = first;

@@ -7,8 +7,9 @@
 
 #include "exact.h"
 
-/* Products of four reals' sums are the largest met: room for sums of 1024 bits, in float for those of all products. */
-#define LIMBS (REAL_IS_DOUBLE ? 128 : 80)
+/* Products of four sums are the largest met, as a rule: room for sums of 1280 bits, in float for any sum of products.
+ */
+#define LIMBS (REAL_IS_DOUBLE ? 160 : 80)
 #define LOST 2
 
 typedef struct dyadic {

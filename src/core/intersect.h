@@ -47,6 +47,7 @@ static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
         if (p.s.n > DIM) end = INSIDE;
         else if (p.steps >= max_steps) end = OPEN;
         else end = look(&p) ? descend(&p, &g) : FAULT;
+        if (end == INSIDE && room(&p.s) > p.d.doubt) end = WITHIN;
         if (end == INSIDE || end == STILL) end = certify(&p, weight) < g.within ? WITHIN : STILL;
         real lower = p.lower - dot(p.normal, t) - 32 * UNIT * ball;
         if (end == BEYOND && lower > q->lower) {

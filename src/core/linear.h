@@ -109,12 +109,16 @@ static inline int same(vec a, vec b)
     return r;
 }
 
-/* d brought to size 1/16 .. 1/8: no sum of products of a point with it overflows. The first axis for none. */
-static inline vec levelled(vec d)
+/* d brought to size 1 .. 2, where it is not 0; a subnormal one in two steps. */
+static inline vec unit_size(vec d)
 {
     real far = peak(d);
-    return far > 0 ? mul(d, leveler(far) * (real)0.0625) : axis(0, 1);
+    d = mul(d, leveler(far));
+    return far < REAL_MIN ? mul(d, leveler(peak(d))) : d;
 }
+
+/* d brought to size 1/16 .. 1/8: no sum of products of a point with it overflows. The first axis for none. */
+static inline vec levelled(vec d) { return peak(d) > 0 ? mul(unit_size(d), (real)0.0625) : axis(0, 1); }
 
 /* m x, m by rows. */
 static inline vec map(const real *m, vec x)

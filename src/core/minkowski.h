@@ -24,10 +24,11 @@ typedef struct body {
     support_fn *support;
     const void *data;
     int posed;
-    real m[DIM * DIM]; /* the pose's map, times the scale once that is known */
-    real stretch;      /* bounds m, unscaled */
+    real m[DIM * DIM]; /* the pose's map; once the scale is known, from points of size 1 to the scaled frame */
+    real stretch;      /* bounds the pose's map */
     real reach;        /* bounds the set's points; 0: not known yet */
-    real ease;         /* brings m to size 1: for directions where sizes are wild */
+    real grain;        /* the power of two that brings the set's points to size 1; without pose, to the frame */
+    real ease, lift;   /* powers of two for directions where sizes are wild: to size 1 for m, up to the set's size */
 } body;
 
 typedef struct difference {
@@ -52,26 +53,28 @@ static inline int fits(const body *k, vec x)
 /* The body's point farthest along d; 0 where the support's answer is no point of a set of that reach. */
 static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
 {
-    if (d->wild) dir = mul(mul(dir, leveler(peak(dir))), k->posed ? k->ease : (real)1);
+    if (d->wild) dir = mul(unit_size(dir), k->ease);
     if (k->posed) dir = pull(k->m, dir);
     if (d->wild || !(peak(dir) > 1 / PLAIN)) dir = levelled(dir); /* 0: flattened by the map, all points equally far */
+    if (d->wild) dir = mul(dir, k->lift);
     d->calls++;
     *x = nowhere();
     *reach = k->support(k->data, dir.c, x->c);
     return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);
 }
 
-static inline vec place(const difference *d, const body *k, vec x)
+static inline vec place(const body *k, vec x)
 {
-    return k->posed ? map(k->m, x) : mul(x, d->scale);
+    x = mul(x, k->grain);
+    return k->posed ? map(k->m, x) : x;
 }
 
 static inline vec corner_of(const difference *d, vec x, vec y)
 {
-    return sub(place(d, &d->a, x), add(place(d, &d->b, y), d->c));
+    return sub(place(&d->a, x), add(place(&d->b, y), d->c));
 }
 
-/* What corner_of(x, y) is, to twice the digits, minus w. x and y are given with what rounding took from them. */
+/* What corner_of(x, y) is, to twice the digits, minus w. x and y are times their grain, with what rounding took. */
 static vec remainder_of(const difference *d, vec x, vec x_low, vec y, vec y_low, vec w)
 {
     vec r;
@@ -79,8 +82,8 @@ static vec remainder_of(const difference *d, vec x, vec x_low, vec y, vec y_low,
         twin sum = {-w.c[i], -d->c_low.c[i]};
         gather(&sum, (twin){-d->c.c[i], 0});
         for (int j = 0; j < DIM; j++) {
-            real a = d->a.posed ? d->a.m[DIM * i + j] : i == j ? d->scale : 0;
-            real b = d->b.posed ? -d->b.m[DIM * i + j] : i == j ? -d->scale : 0;
+            real a = d->a.posed ? d->a.m[DIM * i + j] : (real)(i == j);
+            real b = d->b.posed ? -d->b.m[DIM * i + j] : -(real)(i == j);
             gather(&sum, product_of(a, x.c[j]));
             gather(&sum, product_of(b, y.c[j]));
             sum.low += a * x_low.c[j] + b * y_low.c[j];
@@ -116,7 +119,7 @@ static int survey(difference *d, body *k, real slack)
             far.c[j] = larger(size(x.c[j]) + slack, far.c[j]);
         }
     }
-    k->reach = spread(far) * (1 + 16 * UNIT) + REAL_MIN;
+    k->reach = spread(far) * (1 + 16 * UNIT) + 4 * TINY;
     return k->reach <= REAL_MAX;
 }
 
@@ -125,44 +128,53 @@ static void seize(body *k, const shape *s)
     k->support = s->support;
     k->data = s->data;
     k->posed = s->pose != NULL;
-    k->stretch = 1;
-    k->ease = 1;
+    k->stretch = k->grain = k->ease = k->lift = 1;
     k->reach = 0;
     if (!k->posed) return;
     for (int i = 0; i < DIM * DIM; i++) k->m[i] = s->pose->m[i];
     k->stretch = stretch(k->m);
-    if (k->stretch > 0) k->ease = leveler(k->stretch);
+    if (k->stretch > 0) k->ease = larger(leveler(k->stretch), (real)0.0625); /* nothing is lost on the way down */
+}
+
+/* The body's map and its points' grain, now that the scale is known. Where sizes are wild the map is scaled by its
+ * exponent, whose size need not be a number of the format; and what underflows all the same has no weight. */
+static void fit(body *k, real scale, int wild)
+{
+    k->grain = k->posed ? leveler(k->reach) : scale;
+    for (int i = 0; i < DIM * DIM && k->posed; i++)
+        k->m[i] = wild ? raised(k->m[i], exponent_of(scale) - exponent_of(k->grain)) : k->m[i] * (scale / k->grain);
+    if (!wild) return;
+    k->ease = k->posed ? leveler(larger(stretch(k->m), REAL_MIN)) : 1;
+    k->lift = smaller(larger(leveler(k->reach), 1), LIFT);
 }
 
 /* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
 static int settle(difference *d, real slack)
 {
-    d->a.reach = larger(d->a.reach, 8 * REAL_MIN); /* a bound still, and 1 / reach is finite */
-    d->b.reach = larger(d->b.reach, 8 * REAL_MIN);
     real a = d->a.stretch * d->a.reach, b = d->b.stretch * d->b.reach, c = spread(d->c), whole = a + b + c;
     if (!(whole <= REAL_MAX / 4)) return 0;
     d->scale = leveler(whole);
     d->unscale = 1 / d->scale;
-    for (int i = 0; i < DIM * DIM; i++) {
-        if (d->a.posed) d->a.m[i] *= d->scale;
-        if (d->b.posed) d->b.m[i] *= d->scale;
-    }
+    d->wild = unruly(d->scale) || unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) ||
+              unruly(d->b.stretch * d->scale);
+    fit(&d->a, d->scale, d->wild);
+    fit(&d->b, d->scale, d->wild);
     d->c = mul(d->c, d->scale);
     d->c_low = mul(d->c_low, d->scale);
     d->doubt = UNIT * d->scale * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
-    d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 8 * UNIT);
-    d->wild = unruly(d->scale) || unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) ||
-              unruly(d->b.stretch * d->scale);
-    if (d->wild) { /* products that underflow, in the supports (64) and in the scaled maps (reach) */
-        real grown = 64 * TINY * d->scale * larger(1, d->a.stretch + d->b.stretch);
-        d->doubt += grown + 8 * TINY * d->a.reach + 8 * TINY * d->b.reach + 4 * REAL_MIN;
-        if (d->a.posed) d->a.ease = leveler(larger(d->a.stretch * d->scale, REAL_MIN));
-        if (d->b.posed) d->b.ease = leveler(larger(d->b.stretch * d->scale, REAL_MIN));
+    if (d->wild) { /* products that underflow here, and in the supports where reaches are faint */
+        d->doubt += 64 * TINY;
+        if (whole < REAL_MIN) d->doubt += 64 * TINY * d->scale;
+        if (faint(d->a.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->a.stretch);
+        if (faint(d->b.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->b.stretch);
     }
-    return d->doubt <= REAL_MAX && d->slack <= REAL_MAX;
+    d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 8 * UNIT);
+    d->slack = smaller(d->slack, REAL_MAX);
+    return d->doubt <= REAL_MAX;
 }
 
-static void start(difference *d, const shape *a, const shape *b)
+/* 0 where a map is too large for its norm to be a number. */
+static int start(difference *d, const shape *a, const shape *b)
 {
     seize(&d->a, a);
     seize(&d->b, b);
@@ -174,13 +186,14 @@ static void start(difference *d, const shape *a, const shape *b)
     }
     d->scale = 1;
     d->wild = 1; /* until known better */
+    return bounded(d->a.stretch) && bounded(d->b.stretch);
 }
 
 /* Along the line of centres, from B to A; along the first axis where there is none. */
 static vec first_direction(const difference *d)
 {
     real far = peak(d->c);
-    return far > 0 && bounded(far) ? mul(d->c, -leveler(far)) : axis(0, 1);
+    return far > 0 && bounded(far) ? mul(unit_size(d->c), -1) : axis(0, 1);
 }
 
 /* Cold: the first corner, least along v, which also tells the reaches and with them the scale. */

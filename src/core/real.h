@@ -35,6 +35,7 @@ typedef uint64_t bits;
 #define REAL_MAX DBL_MAX
 #define REAL_MIN DBL_MIN
 #define PLAIN ((real)0x1p300) /* sizes within 1/PLAIN .. PLAIN need no care for under- and overflow */
+#define LIFT ((real)0x1p500)  /* its square, and some, is within range */
 #else
 #if FLT_MANT_DIG != 24 || FLT_MAX_EXP != 128
 #error "float is not an IEEE 754 float here"
@@ -49,6 +50,7 @@ typedef uint32_t bits;
 #define REAL_MAX FLT_MAX
 #define REAL_MIN FLT_MIN
 #define PLAIN ((real)0x1p30)
+#define LIFT ((real)0x1p60)
 #endif
 
 /* Kept out of its caller, whose stack frame would otherwise hold its own from the start. */
@@ -102,6 +104,9 @@ static inline int bounded(real x) { return size(x) <= REAL_MAX; }
 
 /* Not of a plain size: under- and overflow need care. NaN is unruly. */
 static inline int unruly(real x) { return !(x > 1 / PLAIN && x < PLAIN); }
+
+/* A reach so small that a rounding of the least number is no rounding of the reach. A set of no size rounds nothing. */
+static inline int faint(real reach) { return reach > TINY && reach < REAL_MIN; }
 
 /* A power of two that brings x, finite and not negative, into [1, 2), in the topmost binade [2, 4); as near as the
  * format allows where x is subnormal. */

@@ -27,19 +27,22 @@ static int sized(const real *sizes, int n)
     return r;
 }
 
+/* A reach: r, with up to 7 relative roundings and some that underflow; the least number for a set of no size, which
+ * rounds nothing. */
+static real padded(real r) { return r > 0 ? r * (1 + 8 * UNIT) + 4 * TINY : TINY; }
+
 /* A bound on the length, tight for the cube and along the axes, without square roots, safe from overflow in between. */
 static real at_most(vec a)
 {
     real box_diagonal = (real)(DIM == 2 ? 1.4142136 : 1.7320509) * peak(a);
-    return smaller(spread(a), box_diagonal) * (1 + 4 * UNIT) + REAL_MIN;
+    return padded(smaller(spread(a), box_diagonal));
 }
 
 /* Along dir, length l; dir is brought to size 1 first, so that its square is within range. The zero vector for none. */
 static vec along(vec dir, real l)
 {
-    real far = peak(dir);
-    if (!(far > 0)) return axis(0, 0);
-    dir = mul(dir, leveler(far));
+    if (!(peak(dir) > 0)) return axis(0, 0);
+    dir = unit_size(dir);
     return mul(dir, l / length(dir));
 }
 
@@ -61,26 +64,27 @@ GJK_API real pub(points_reach)(const points *p)
         if (!(spread(x) <= REAL_MAX)) return (real)NAN;
         far = larger(peak(x), far);
     }
-    if (far == 0) return REAL_MIN;
+    if (far == 0) return padded(0);
     real level = leveler(far);
     for (size_t i = 0; i < p->count; i++) {
         vec x = mul(load(p->v + i * step), level);
         sum = larger(dot(x, x), sum);
     }
-    return root(sum) * (1 + 8 * UNIT) / level + REAL_MIN;
+    return padded(root(sum) / level);
 }
 
-/* Farthest of the points, the first among equals. The sum of height * 0 is 0 only if every height, and with it every
+/* Farthest of the points, the first among equals. Heights are those above the first point: so points that lie close
+ * together far from their origin are told apart. The sum of height * 0 is 0 only if every height, and with it every
  * point, is finite. */
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
 {
     const points *p = data;
     if (!p || !cloud(p)) return refuse(out);
-    vec d = load(dir);
+    vec d = load(dir), first = load(p->v);
     size_t step = stride_of(p), best = 0;
-    real highest = dot(load(p->v), d), sum = 0;
-    for (size_t i = 0; i < p->count; i++) {
-        real height = dot(load(p->v + i * step), d);
+    real highest = 0, sum = spread(first) * 0;
+    for (size_t i = 1; i < p->count; i++) {
+        real height = dot(sub(load(p->v + i * step), first), d);
         sum += height * 0;
         if (height > highest) {
             highest = height;
@@ -100,17 +104,18 @@ GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DI
     return at_most(load(b->half));
 }
 
-/* Among n corners. */
+/* Among n corners, by their heights above the first. */
 static real farthest_of(const real (*v)[DIM], int n, const real dir[DIM], real out[DIM])
 {
+    vec first = load(v[0]);
     real reach = 0, highest = 0;
     int best = 0;
     for (int i = 0; i < n; i++) {
         vec x = load(v[i]);
-        real height = dot(x, load(dir));
+        real height = dot(sub(x, first), load(dir));
         if (!(spread(x) <= REAL_MAX)) return refuse(out);
         reach = larger(at_most(x), reach);
-        if (i > 0 && !(height > highest)) continue;
+        if (!(height > highest)) continue;
         highest = height;
         best = i;
     }
@@ -129,7 +134,7 @@ GJK_API real pub(support_origin)(const void *unused, const real dir[DIM], real o
     (void)unused;
     (void)dir;
     EACH(out[i] = 0);
-    return REAL_MIN;
+    return padded(0);
 }
 
 GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[DIM])
@@ -137,7 +142,7 @@ GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[D
     const ball *b = data;
     if (!b || !sized(&b->radius, 1)) return refuse(out);
     store(out, along(load(dir), b->radius));
-    return b->radius * (1 + 8 * UNIT) + REAL_MIN;
+    return padded(b->radius);
 }
 
 #if DIM == 3
@@ -166,7 +171,7 @@ GJK_API real pub(support_disc)(const void *data, const real dir[DIM], real out[D
     const disc *d = data;
     if (!d || !sized(&d->radius, 1)) return refuse(out);
     rim(dir, d->radius, 0, out);
-    return d->radius * (1 + 8 * UNIT) + REAL_MIN;
+    return padded(d->radius);
 }
 
 GJK_API real pub(support_cylinder)(const void *data, const real dir[DIM], real out[DIM])
@@ -184,7 +189,7 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
     const cone *c = data;
     if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return refuse(out);
     vec d = load(dir), corner = {{c->radius, c->half_length, 0}};
-    d = mul(d, leveler(peak(d)));
+    d = unit_size(d);
     real level = leveler(larger(peak(corner), REAL_MIN)), up = 2 * (c->half_length * level) * d.c[2];
     real flat = root(d.c[0] * d.c[0] + d.c[1] * d.c[1]);
     if (c->radius * level * flat > up) {
@@ -196,8 +201,18 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
 }
 #endif
 
-/* The corners of a set that is known to be the hull of so many; 0: it is not. The support's data have been found good.
- */
+/* Whether the set is known to be the hull of corners that can be listed. */
+static int has_corners(const shape *s)
+{
+    int r = s->support == pub(support_points) || s->support == pub(support_box) || s->support == pub(support_segment) ||
+            s->support == pub(support_origin);
+#if DIM == 3
+    r |= s->support == pub(support_triangle);
+#endif
+    return r;
+}
+
+/* How many, of a set that has them, and whose support has found the data good. */
 static size_t count_corners(const shape *s)
 {
     if (s->support == pub(support_points)) return ((const points *)s->data)->count;
@@ -206,7 +221,7 @@ static size_t count_corners(const shape *s)
 #if DIM == 3
     if (s->support == pub(support_triangle)) return 3;
 #endif
-    return s->support == pub(support_origin);
+    return 1;
 }
 
 static vec nth_corner(const shape *s, size_t n)
@@ -242,7 +257,8 @@ static real support_of(const shape *s, vec dir, vec *out)
     if (p) *out = add(map(p->m, *out), load(p->p));
     if (s->radius > 0) *out = add(*out, along(dir, s->radius));
     if (!(reach > 0)) return grows > 0 && unruly(grows) ? (real)NAN : reach;
-    return (p ? 4 * (grows * reach) + spread(load(p->p)) : reach) + s->radius + 16 * REAL_MIN;
+    if (faint(reach)) reach += 16 * REAL_MIN;
+    return (p ? 4 * (grows * reach) + spread(load(p->p)) : reach) + s->radius + 64 * TINY;
 }
 
 /* Of both together: a bound must be finite, and is not known if one is not. */

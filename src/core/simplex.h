@@ -72,11 +72,11 @@ static inline vec member_of(const vertex *p, size_t member)
     return *(const vec *)(const void *)((const char *)p + member);
 }
 
-/* The weighted sum of the corners' w, x or y. */
-static vec blend(const simplex *s, const real weight[DIM + 1], size_t member)
+/* The weighted sum of the corners' w; of their x or y, times their grain, which keeps it in range. */
+static vec blend(const simplex *s, const real weight[DIM + 1], size_t member, real grain)
 {
     vec r = axis(0, 0);
-    for (int i = 0; i < s->n; i++) r = add(r, mul(member_of(corner(s, i), member), weight[i]));
+    for (int i = 0; i < s->n; i++) r = add(r, mul(mul(member_of(corner(s, i), member), grain), weight[i]));
     return r;
 }
 

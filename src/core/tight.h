@@ -213,6 +213,8 @@ static int shrink(finish *f)
         f->weight[n++] = f->weight[i];
     }
     f->n = n;
+    side(f, &f->over);
+    side(f, &f->under);
     return !f->lost && mask > 0;
 }
 
@@ -304,7 +306,8 @@ static void take_in(finish *f, vec x, vec y)
     f->w[f->n++] = difference_of(&a, &b);
 }
 
-/* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; FAULT: numbers were lost. */
+/* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; OPEN: max_steps are used up; FAULT:
+ * numbers were lost. */
 static enum end conclude(finish *f, search *q, const shape *a, const shape *b, int max_steps)
 {
     f->a = a;
@@ -341,47 +344,81 @@ static twin quotient_of(twin a, twin b)
     return sum_of(q, ((a.high - back.high) - back.low + a.low - q * b.low) / b.high);
 }
 
-/* The cores' distance: a twin, good to 64 UNIT^2 of itself, times 2^exponent. */
-static twin core_distance(const finish *f, int *exponent)
+static twin product_of_twins(twin a, twin b)
 {
-    int over_exponent, under_exponent;
-    twin over = leading(&f->over, &over_exponent), under = leading(&f->under, &under_exponent);
-    if (f->squared) {
-        over = quotient_of(over, under);
-        over_exponent -= under_exponent;
-    } else if (under_exponent & 1) {
-        under = (twin){2 * under.high, 2 * under.low};
-        under_exponent--;
-    }
-    if (f->squared && over_exponent & 1) {
-        over = (twin){2 * over.high, 2 * over.low};
-        over_exponent--;
-    }
-    *exponent = f->squared ? over_exponent / 2 : over_exponent - under_exponent / 2;
-    if (!(over.high > 0)) return (twin){0, 0};
-    return f->squared ? root_of(over) : quotient_of(over, root_of(under));
+    twin r = product_of(a.high, b.high);
+    return sum_of(r.high, r.low + (a.high * b.low + a.low * b.high));
 }
 
-/* The bracket of the distance less the radii, each end the nearest number its way; the value between. */
-static void enclose(const finish *f, real radius_a, real radius_b, real scale, real bracket[3])
-{
+/* A twin and the power of two that goes with it: of any magnitude. */
+typedef struct wide {
+    twin t;
     int exponent;
-    twin d = core_distance(f, &exponent);
-    real error = 64 * UNIT * UNIT * d.high;
-    if (radius_a + radius_b > 0) { /* in the search's frame, where nothing that counts underflows */
-        int level = exponent_of(scale);
-        d = (twin){raised(d.high, exponent + level), raised(d.low, exponent + level)};
-        error = raised(error, exponent + level) + 4 * TINY;
-        twin radius = sum_of(-radius_a * scale, -radius_b * scale);
-        gather(&d, (twin){radius.high, 0});
-        gather(&d, (twin){radius.low, 0});
-        d = sum_of(d.high, d.low);
-        error += 4 * UNIT * UNIT * (size(d.high) + size(radius.high));
-        exponent = -level;
-    }
-    bracket[0] = below(d.high, d.low - error, exponent);
-    bracket[1] = raised(d.high, exponent);
-    bracket[2] = -below(-d.high, -d.low - error, exponent);
+} wide;
+
+static wide wide_of(const dyadic *a)
+{
+    wide r;
+    r.t = leading(a, &r.exponent);
+    return r;
+}
+
+static wide wide_root(wide a)
+{
+    if (a.exponent & 1) a = (wide){{2 * a.t.high, 2 * a.t.low}, a.exponent - 1};
+    return (wide){a.t.high > 0 ? root_of(a.t) : a.t, a.exponent / 2};
+}
+
+static wide wide_sum(wide a, wide b)
+{
+    if (a.t.high == 0) return b;
+    if (b.t.high == 0) return a;
+    int top = a.exponent > b.exponent ? a.exponent : b.exponent;
+    twin t = {raised(a.t.high, a.exponent - top), raised(a.t.low, a.exponent - top)};
+    gather(&t, (twin){raised(b.t.high, b.exponent - top), raised(b.t.low, b.exponent - top)});
+    return (wide){sum_of(t.high, t.low), top};
+}
+
+static wide wide_quotient(wide a, wide b) { return (wide){quotient_of(a.t, b.t), a.exponent - b.exponent}; }
+
+/* The cores' distance, good to 16 UNIT^2 of itself. */
+static wide core_distance(const finish *f)
+{
+    wide over = wide_of(&f->over), under = wide_of(&f->under);
+    return f->squared ? wide_root(wide_quotient(over, under)) : wide_quotient(over, wide_root(under));
+}
+
+/* The distance less the radii, d - r, good to 64 UNIT^2 of itself. As (d^2 - r^2) / (d + r), where the difference is
+ * without rounding; LOST where that has too many digits. */
+static wide separation(const finish *f, real radius_a, real radius_b, int *sign)
+{
+    dyadic a = dyadic_of(radius_a), b = dyadic_of(radius_b), r = plus(&a, &b, 1);
+    wide d = core_distance(f);
+    *sign = f->over.sign;
+    if (r.sign == 0) return d;
+    dyadic over = f->squared ? f->over : times(&f->over, &f->over), rr = times(&r, &r);
+    rr = times(&rr, &f->under);
+    dyadic squares = plus(&over, &rr, -1);
+    *sign = squares.sign;
+    wide under = wide_of(&f->under), sum = wide_sum(d, wide_of(&r));
+    under = (wide){product_of_twins(under.t, sum.t), under.exponent + sum.exponent};
+    return wide_quotient(wide_of(&squares), under);
+}
+
+/* The bracket of the distance less the radii, each end the nearest number its way, or the one next to that; the value
+ * between. */
+static int enclose(const finish *f, real radius_a, real radius_b, real ends[3])
+{
+    int sign;
+    wide s = separation(f, radius_a, radius_b, &sign);
+    real error = 64 * UNIT * UNIT * s.t.high, low, high;
+    if (sign == LOST) return 0;
+    low = below(s.t.high, s.t.low - error, s.exponent);
+    high = -below(-s.t.high, -s.t.low - error, s.exponent);
+    ends[0] = sign < 0 ? -high : low;
+    ends[1] = raised(s.t.high, s.exponent) * (real)sign;
+    ends[2] = sign < 0 ? -low : high;
+    return bounded(ends[0]) && bounded(ends[2]);
 }
 
 /* What f found, as the search's own: the simplex, its weights, the normal. */

@@ -14,6 +14,13 @@
 #define JOIN(a, b) JOIN2(a, b)
 #define pub(name) JOIN(PREFIX, name) /* pub(distance) is gjk3_distance, or one of its sisters */
 
+/* The variant of this dimension in double, where it stands beside one in float. */
+#if DIM == 2
+#define sister(name) gjk2_##name
+#else
+#define sister(name) gjk3_##name
+#endif
+
 typedef pub(support_fn) support_fn;
 typedef pub(pose) pose;
 typedef pub(shape) shape;

@@ -53,8 +53,23 @@ def test_a_question_for_cases_without_one():
     assert answers[1]["upper"] < 0 == answers[3]["lower"]
 
 
+def test_the_last_bit():
+    third = {**CASE, "b": {"shape": "box", "half": [1, 1, 1], "pose": [1, 0, 0, 3, 0, 1, 0, 3, 0, 0, 1, 0]}}
+    (answer,), _ = ask({**third, "options": {"tight": True}})
+    assert answer["lower"] <= 2**0.5 <= answer["upper"]
+    assert answer["upper"] - answer["lower"] <= 2 * 2.0**-52
+
+
+def test_exact_contact_is_told_where_asked():
+    touching = {**CASE, "b": {**BOX, "pose": [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]}, "options": {"tight": True}}
+    answers, _ = ask(touching, {**touching, "query": "intersect"})
+    assert [answer["value"] for answer in answers] == [0, 0]
+    assert [answer["upper"] for answer in answers] == [0, 0]
+    assert [answer["intersect"] for answer in answers] == [True, True]
+
+
 def test_touching_is_neither():
-    touching = {**CASE, "b": {"shape": "box", "half": [1, 1, 1], "pose": [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]}}
+    touching = {**CASE, "b": {"shape": "cylinder", "r": 1, "half_length": 1, "pose": [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]}}
     (answer,), _ = ask({**touching, "query": "intersect"})
     assert answer["status"] == "floor"
     assert answer["lower"] <= 0 <= answer["upper"]
@@ -115,6 +130,8 @@ def test_cases_of_every_shape(pair, precision):
         ({"options": {"max_steps": 0.5}}, "bad argument", "options"),
         ({"options": {"rel_tol": float("nan")}}, "bad argument", "option"),
         ({"options": 3}, "bad argument", "options"),
+        ({"options": {"tight": 1}}, "bad argument", "tight"),
+        ({"options": {"tight": "true"}, "query": "intersect"}, "bad argument", "tight"),
         ({"options": {"rel_tol": 0.1, "max_step": 1}}, "bad argument", "'max_step'"),
         ({"options": {"rel-tol": 0.1}, "query": "intersect"}, "bad argument", "'rel-tol'"),
         ({"query": "penetration"}, "unsupported query", "penetration"),
@@ -167,20 +184,23 @@ CASES = Path(__file__).parents[3] / "tests/cases"
 @pytest.mark.parametrize("name", ["gjk2", "gjk2f", "gjk3", "gjk3f", "museum"])
 def test_the_cases_that_all_tests_share(name):
     cases = [json.loads(line) for line in (CASES / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()]
-    distances, code = ask(*({**case, "query": "distance"} for case in cases))
-    verdicts, _ = ask(*({**case, "query": "intersect"} for case in cases))
-    assert code == 0
-    assert len(distances) == len(verdicts) == len(cases) > 100
-    wrong = [case["id"] for case, *answers in zip(cases, distances, verdicts) if not agrees(case["expect"], *answers)]
-    assert wrong == []
+    for tight in (False, True):
+        options = {"tight": tight}
+        distances, code = ask(*({**case, "query": "distance", "options": options} for case in cases))
+        verdicts, _ = ask(*({**case, "query": "intersect", "options": options} for case in cases))
+        assert code == 0
+        assert len(distances) == len(verdicts) == len(cases) > 100
+        solved = zip(cases, distances, verdicts)
+        assert [case["id"] for case, *answers in solved if not agrees(case["expect"], *answers)] == []
 
 
 def agrees(expect, distance, verdict):
     """Whether both answers are what the truth allows."""
     lower, upper = Fraction(expect["distance_lower"]), Fraction(expect["distance_upper"])
     holds = distance["lower"] <= upper and lower <= distance["upper"]
-    says = {False: "apart", True: "overlapping"}.get(verdict.get("intersect"))
-    return holds and (says in (None, expect["relation"]) or expect.get("proven") is False)
+    meet = expect["relation"] != "apart"
+    overlap = verdict["upper"] >= 0 or expect["relation"] == "overlapping"
+    return holds and overlap and verdict.get("intersect") in (None, meet) and distance.get("intersect") in (None, meet)
 
 
 def test_the_command(tmp_path):

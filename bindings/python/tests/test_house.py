@@ -23,6 +23,7 @@ ABSENT = {
     "reach_a",  # the inside of a cache is the library's
     "reach_b",
     "reserved",
+    "reserved_bits",
     "gjk_status",  # its values are gjk.Status
 }
 

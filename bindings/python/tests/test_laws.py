@@ -30,7 +30,7 @@ def test_swap(precision, pair):
     there, back = gjk.distance(a, b, precision=precision), gjk.distance(b, a, precision=precision)
     assert meet(bracket(there), bracket(back))
     relations = {gjk.intersect(*both, precision=precision).relation for both in ((a, b), (b, a))}
-    assert not {gjk.Relation.APART, gjk.Relation.OVERLAPPING} <= relations
+    assert gjk.Relation.APART not in relations or not relations & {gjk.Relation.OVERLAPPING, gjk.Relation.MEETING}
 
 
 @precisions
@@ -105,7 +105,7 @@ def test_warm_equals_cold(precision, pair, moves):
         hot = gjk.distance(a, there, precision=precision, cache=warm)
         assert meet(bracket(hot), bracket(gjk.distance(a, there, precision=precision)))
         verdicts = {gjk.intersect(a, there, precision=precision, cache=cache).relation for cache in (warm, None)}
-        assert not {gjk.Relation.APART, gjk.Relation.OVERLAPPING} <= verdicts
+        assert gjk.Relation.APART not in verdicts or not verdicts & {gjk.Relation.OVERLAPPING, gjk.Relation.MEETING}
 
 
 @precisions

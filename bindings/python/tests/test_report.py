@@ -77,6 +77,7 @@ def test_the_report_of_a_tiny_scene(scene, tmp_path, capsys):
     printed = capsys.readouterr()
     assert "hold the truth" in printed.out
     assert "rel_tol, relative to the distance" in printed.out
+    assert re.search("^tight +[0-9]", printed.out, re.MULTILINE)
     assert "exact truth" in printed.err
     check_rows(list(csv.DictReader((out / "report.csv").read_text(encoding="utf-8").splitlines())))
     check_page((out / "report.html").read_text(encoding="utf-8"))
@@ -97,6 +98,9 @@ def check_rows(rows):
         one = next(row for row in mine if row["setting"] == "1 steps")
         assert 0 < float(full["error_max"]) < 100
         assert float(full["error_max"]) <= float(full["width_max"]) < 1000
+        tight = next(row for row in mine if row["setting"] == "tight")
+        assert float(tight["error_max"]) <= float(full["error_max"])
+        assert float(tight["width_median"]) < float(full["width_median"])
         assert float(one["width_max"]) > 1e3
         assert float(one["supports_per_query"]) < float(full["supports_per_query"])
 
@@ -154,9 +158,10 @@ def test_answers_are_those_of_the_library(scene):
     pairs = load(scene).pairs
     for precision in ("double", "float"):
         for level in measure.solve(pairs, 3, precision, lambda done, total: None):
-            if level.level.kind == "rel_tol":
+            if level.level.kind in ("rel_tol", "tight"):
+                settings = {"tight": True} if level.level.kind == "tight" else {"rel_tol": level.level.setting}
                 for pair, answer in zip(pairs, level.answers):
-                    result = distance(pair.a, pair.b, precision=precision, rel_tol=level.level.setting)
+                    result = distance(pair.a, pair.b, precision=precision, **settings)
                     assert (result.value, result.lower, result.upper) == answer[:3]
 
 

@@ -54,6 +54,8 @@ def test_intersect_tells_the_truth(precision, pair):
     assert inside(result)
     if result.relation is Relation.APART:
         assert truth.relation == exact.APART or not truth.proven
+    elif result.relation is Relation.MEETING:
+        assert truth.relation != exact.APART or not truth.proven
     elif result.relation is Relation.OVERLAPPING:
         assert truth.relation == exact.OVERLAPPING or not truth.proven
     if truth.separation is not None:

@@ -36,8 +36,13 @@ class Variant:
     def function(self, stem: str) -> Any:
         return getattr(lib, f"{self.name}_{stem}")
 
-    def address(self, stem: str) -> Any:
-        return ffi.addressof(lib, f"{self.name}_{stem}")
+    def ready(self, stem: str) -> Any:
+        """A ready-made support, as the library knows it."""
+        return self.function(f"ready_{stem}")
+
+    def python_support(self) -> Any:
+        """The one that calls back into Python."""
+        return ffi.addressof(lib, f"{self.name}_python_support")
 
     def new(self, stem: str, value: Any = None) -> Any:
         """A new C struct, such as new("box", {"half": (1, 2, 3)}); it lives as long as the object returned."""

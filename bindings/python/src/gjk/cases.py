@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any, Callable
 
 from .errors import BadArgument, Error, Status
-from .query import Relation, Result, Separation, distance, intersect
+from .query import Result, distance, intersect
 from .shapes import (
     Ball,
     Box,
@@ -33,8 +33,8 @@ __all__ = ["QUERIES", "posed", "result_to_json", "shape_from_json", "shape_to_js
 
 QUERIES = ("distance", "intersect")
 OPTIONS = {
-    "distance": ("cutoff", "max_steps", "abs_tol", "rel_tol", "slack"),
-    "intersect": ("max_steps", "slack"),
+    "distance": ("cutoff", "max_steps", "abs_tol", "rel_tol", "slack", "tight"),
+    "intersect": ("max_steps", "slack", "tight"),
 }
 
 
@@ -167,6 +167,4 @@ def result_to_json(result: Result) -> dict[str, Any]:
 def _meet(result: Result) -> bool | None:
     if result.lower > 0:
         return False
-    if isinstance(result, Separation):
-        return True if result.relation is Relation.OVERLAPPING else None
-    return True if result.upper == 0 else None
+    return True if result.upper <= 0 else None

@@ -41,6 +41,8 @@ class Relation(Enum):
 
     APART = "apart"
     OVERLAPPING = "overlapping"
+    MEETING = "meeting"
+    """Proven to have points in common; whether they overlap or touch exactly is not told."""
     TOUCHING = "touching"
     """Contact, to this precision: rounding, or the slack given, allows no verdict on either side of it."""
     UNDECIDED = "undecided"
@@ -59,6 +61,8 @@ class Separation(Result):
             return Relation.APART
         if self.upper < 0:
             return Relation.OVERLAPPING
+        if self.upper == 0:
+            return Relation.MEETING
         return Relation.UNDECIDED if self.status is Status.LIMIT else Relation.TOUCHING
 
 
@@ -107,18 +111,21 @@ def distance(
     abs_tol: float = 0.0,
     rel_tol: float = 0.0,
     slack: float = 0.0,
+    tight: bool = False,
     cache: Cache | None = None,
 ) -> Result:
     """How far apart are a and b? 0 where they meet.
 
     The query stops at upper - lower <= abs_tol + rel_tol * upper; both 0, the default: as tight as rounding allows.
     cutoff > 0: stop once the answer is proven above it (Status.DECIDED). max_steps 0: 256. slack is how far a
-    support may fall short of the farthest point, beyond its rounding; it widens the bracket.
+    support may fall short of the farthest point, beyond its rounding; it widens the bracket. tight: points, boxes,
+    segments, triangles and spheres, in any pose and rounded or not, are answered to the last bit, by exact arithmetic;
+    for other shapes it changes nothing.
     precision "float" rounds the shapes to single precision and solves there: the bracket is then of the distance
     between the rounded shapes.
     """
     v = _variant(a, b, precision)
-    options = (cutoff, max_steps, abs_tol, rel_tol, slack)
+    options = _Options(cutoff, max_steps, abs_tol, rel_tol, slack, tight)
     return Result._make(_ask(v, v.distance, a, b, options, cache))
 
 
@@ -129,6 +136,7 @@ def intersect(
     precision: str = "double",
     max_steps: int = 0,
     slack: float = 0.0,
+    tight: bool = False,
     cache: Cache | None = None,
 ) -> Separation:
     """Do a and b meet? Ends at the first proof; `relation` of the answer says what was proven.
@@ -136,7 +144,7 @@ def intersect(
     The options are those of `distance`.
     """
     v = _variant(a, b, precision)
-    options = (0.0, max_steps, 0.0, 0.0, slack)
+    options = _Options(max_steps=max_steps, slack=slack, tight=tight)
     return Separation._make(_ask(v, v.intersect, a, b, options, cache))
 
 
@@ -150,7 +158,18 @@ def _variant(a: Shape, b: Shape, precision: str) -> Variant:
     return variant(a.dim, precision)
 
 
-_DEFAULTS = (0.0, 0, 0.0, 0.0, 0.0)
+class _Options(NamedTuple):
+    """The fields of the C struct that are not pointers, by their names there."""
+
+    cutoff: float = 0.0
+    max_steps: int = 0
+    abs_tol: float = 0.0
+    rel_tol: float = 0.0
+    slack: float = 0.0
+    tight: bool = False
+
+
+_DEFAULTS = _Options()
 
 
 def _ask(
@@ -158,12 +177,14 @@ def _ask(
     question: Any,
     a: Shape,
     b: Shape,
-    options: tuple[float, int, float, float, float],
+    options: _Options,
     cache: Cache | None,
 ) -> tuple[Any, ...]:
     """The fields of a Result, or the exception that the status means."""
     if cache is not None and not isinstance(cache, Cache):
         raise BadArgument(f"cache: a Cache is expected, not {type(cache).__name__}")
+    if not isinstance(options.tight, bool):
+        raise BadArgument(f"option tight is True or False, not {options.tight!r}")
     native_a, python_a = a._native(v)
     native_b, python_b = b._native(v)
     settings = ffi.NULL
@@ -191,26 +212,14 @@ def _ask(
     )
 
 
-def _settings(v: Variant, options: tuple[float, int, float, float, float], cache: Any) -> Any:
-    cutoff, max_steps, abs_tol, rel_tol, slack = options
+def _settings(v: Variant, options: _Options, cache: Any) -> Any:
     try:
-        return ffi.new(
-            v.options_type,
-            {
-                "size": v.options_size,
-                "max_steps": max_steps,
-                "abs_tol": abs_tol,
-                "rel_tol": rel_tol,
-                "cutoff": cutoff,
-                "slack": slack,
-                "cache": cache,
-            },
-        )
+        return ffi.new(v.options_type, {"size": v.options_size, "cache": cache, **options._asdict()})
     except (TypeError, OverflowError) as wrong:
-        raise BadArgument(f"options {options}: {wrong}") from None
+        raise BadArgument(f"options {tuple(options)}: {wrong}") from None
 
 
-def _fault(a: Shape, b: Shape, options: tuple[float, int, float, float, float]) -> str:
+def _fault(a: Shape, b: Shape, options: _Options) -> str:
     """Words for what the library has refused."""
     for name, shape in (("a", a), ("b", b)):
         fault = shape._fault()

@@ -162,7 +162,7 @@ def _rebuild(kind: type[Shape], sizes: tuple[Any, ...], keywords: dict[str, Any]
 def _ready(v: Variant, support: str, struct: str, fields: dict[str, Any], *keep: Any) -> Native:
     """One of the library's ready-made supports."""
     data = v.new(struct, fields)
-    return Native(v.address(support), data, (data, *keep), False)
+    return Native(v.ready(support), data, (data, *keep), False)
 
 
 class Points(Shape):
@@ -198,7 +198,7 @@ class Points(Shape):
         data = v.new("points", {"v": flat, "count": len(self.points)})
         reach = v.function("points_reach")(data)
         data.reach = reach if reach >= 0 else 0.0  # NaN: the query is to say what is wrong
-        return Native(v.address("support_points"), data, (data, flat), False)
+        return Native(v.ready("support_points"), data, (data, flat), False)
 
     def _set_fault(self) -> str:
         if not self.points:
@@ -284,7 +284,7 @@ class Sphere(Shape):
         return _without_radius(super()._keywords(), self.dim)
 
     def _set(self, v: Variant) -> Native:
-        return Native(v.address("support_origin"), ffi.NULL, (), False)
+        return Native(v.ready("support_origin"), ffi.NULL, (), False)
 
 
 class Capsule(Shape):
@@ -440,7 +440,7 @@ class _Couple(Shape):
     def _set(self, v: Variant) -> Native:
         (a, python_a), (b, python_b) = self.a._native(v), self.b._native(v)
         data = v.new("couple", {"a": a[0], "b": b[0]})
-        return Native(v.address(self._support), data, (data, a, b, self.a, self.b), python_a or python_b)
+        return Native(v.ready(self._support), data, (data, a, b, self.a, self.b), python_a or python_b)
 
     def _set_fault(self) -> str:
         for name, member in (("a", self.a), ("b", self.b)):
@@ -503,7 +503,7 @@ class Support(Shape):
 
     def _set(self, v: Variant) -> Native:
         handle = callback_handle(self.function, self.dim, self.reach or 0.0)
-        return Native(v.address("python_support"), handle, (handle,), True)
+        return Native(v.python_support(), handle, (handle,), True)
 
     def _set_fault(self) -> str:
         return number_fault("reach", self.reach or 0.0)

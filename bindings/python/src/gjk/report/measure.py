@@ -25,13 +25,13 @@ class Level(NamedTuple):
     """One rung of the ladder."""
 
     kind: str
-    """ "rel_tol", "max_steps" or "intersect"."""
+    """ "rel_tol", "tight", "max_steps" or "intersect"."""
     setting: float
 
     @property
     def label(self) -> str:
-        if self.kind == "intersect":
-            return "intersect"
+        if self.kind in ("tight", "intersect"):
+            return self.kind
         if self.setting == 0:
             return "full"
         return f"tol {self.setting:.0e}" if self.kind == "rel_tol" else f"{self.setting:.0f} steps"
@@ -56,7 +56,8 @@ class Answers(NamedTuple):
 
 def ladder(precision: str) -> list[Level]:
     tolerances = [Level("rel_tol", tolerance) for tolerance in TOLERANCES[precision]]
-    return [*tolerances, *(Level("max_steps", steps) for steps in STEPS), Level("intersect", 0)]
+    steps = [Level("max_steps", steps) for steps in STEPS]
+    return [*tolerances, Level("tight", 1), *steps, Level("intersect", 0)]
 
 
 def solve(pairs: list[Pair], dim: int, precision: str, step: Callable[[int, int], None]) -> list[Answers]:
@@ -91,7 +92,7 @@ class _Watch:
         self.b = _array(v, [pair.b._native(v)[0] for pair in pairs])
         self.options = v.new("options", {"size": v.options_size})
         if level.kind != "intersect":
-            setattr(self.options, level.kind, int(level.setting) if level.kind == "max_steps" else level.setting)
+            setattr(self.options, level.kind, level.setting if level.kind == "rel_tol" else int(level.setting))
         self.out = ffi.new(f"{v.name}_result[]", len(pairs))
         self.best = float("inf")
 

@@ -93,7 +93,8 @@ $promises
 </div>
 
 <h2>The numbers</h2>
-<p>With tol the query had the option rel_tol, relative to the distance; full is as tight as rounding allows.</p>
+<p>With tol the query had the option rel_tol, relative to the distance; full is as tight as rounding allows; with tight,
+exact arithmetic finishes the pairs of points, boxes, segments, triangles and spheres.</p>
 $tables
 
 <footer>
@@ -206,8 +207,8 @@ def _table(report: Report) -> str:
 <tbody>
 {rows}
 </tbody></table></div>
-<p>Intersect: {v.ns:.0f} ns and {v.supports:.1f} support calls per query; {v.apart:,} apart, {v.overlapping:,}
-overlapping, {v.touching:,} touching, {v.violations} wrong.</p>"""
+<p>Intersect: {v.ns:.0f} ns and {v.supports:.1f} support calls per query; {v.apart:,} apart, {v.meeting:,}
+meeting, {v.touching:,} touching, {v.violations} wrong.</p>"""
 
 
 def _row(report: Report, before: Row | None, row: Row) -> str:

@@ -61,7 +61,7 @@ def ladder(report: Report, kind: str, ymax: float) -> str:
         axes.set_yscale("log")
         _decades(axes.yaxis, FLOOR, ymax)
         axes.set_ylim(FLOOR / 1.8, ymax)
-        _time_axis(axes, max(row.ns for row in report.rows))
+        _time_axis(axes, max(row.ns for row in report.rows if row.level.kind in ("rel_tol", "max_steps")))
         axes.set_ylabel("u · scale")
         return _svg(figure, f"{report.precision}-{kind}")
 

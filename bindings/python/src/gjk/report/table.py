@@ -47,7 +47,7 @@ class Verdicts(NamedTuple):
     ns: float
     supports: float
     apart: int
-    overlapping: int
+    meeting: int
     touching: int
     """Neither was proven: contact, to this precision."""
     violations: int
@@ -95,13 +95,15 @@ def _row(level: Answers, truths: list[Truth], u: float) -> Row:
 
 def _verdicts(level: Answers, truths: list[Truth]) -> Verdicts:
     apart = [answer.lower > 0 for answer in level.answers]
-    overlapping = [answer.upper < 0 for answer in level.answers]
+    meeting = [answer.upper <= 0 for answer in level.answers]
     wrong = sum(
-        (says_apart and truth.relation != APART) or (says_over and truth.relation != OVERLAPPING)
-        for says_apart, says_over, truth in zip(apart, overlapping, truths)
+        (answer.lower > 0 and truth.relation != APART)
+        or (answer.upper <= 0 and truth.relation == APART)
+        or (answer.upper < 0 and truth.relation != OVERLAPPING)
+        for answer, truth in zip(level.answers, truths)
     )
-    touching = len(apart) - sum(apart) - sum(overlapping)
-    return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(overlapping), touching, wrong)
+    touching = len(apart) - sum(apart) - sum(meeting)
+    return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(meeting), touching, wrong)
 
 
 def _mean_supports(level: Answers) -> float:

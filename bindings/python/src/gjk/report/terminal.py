@@ -58,7 +58,7 @@ def show(scene: Scene, reports: list[Report], files: list[Path]) -> None:
         console.print()
         console.print(_table(scene, report))
         console.print(_intersect(report), highlight=False)
-    console.print(Text("tol: the option rel_tol, relative to the distance.", "dim"))
+    console.print(Text("tol: the option rel_tol, relative to the distance; tight: that option.", "dim"))
     console.print(Text("Error and promise (bracket width) in u·scale; ns: the mean in the fastest round.", "dim"))
     console.print(_verdict(reports))
     for file in files:
@@ -94,7 +94,7 @@ def _intersect(report: Report) -> str:
     v = report.intersect
     return (
         f"Intersect: {v.ns:.0f} ns, {v.supports:.1f} calls; "
-        f"{v.apart} apart, {v.overlapping} overlapping, {v.touching} touching, {v.violations} wrong"
+        f"{v.apart} apart, {v.meeting} meeting, {v.touching} touching, {v.violations} wrong"
     )
 
 

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+/* Float only: where its roundings leave more doubt about a smooth shape than the caller asked for, the question is put
+ * to the sister in double. Hulls of known corners have no need of it (tight.h), callbacks of the caller's own speak
+ * only float. With GJK_ALONE a float variant does without: it then needs no other translation unit, and no double. */
+#ifndef GJK_CORE_WIDEN_H
+#define GJK_CORE_WIDEN_H
+
+#include "distance.h"
+#include "shapes.h"
+
+#if REAL_IS_DOUBLE || defined(GJK_ALONE)
+
+static int ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    (void)q, (void)a, (void)b, (void)o, (void)g, (void)r;
+    return GJK_BAD_SUPPORT;
+}
+
+#else
+
+#if DIM == 2
+#include "../../include/gjk/gjk2.h"
+#else
+#include "../../include/gjk/gjk3.h"
+#endif
+
+typedef struct widened {
+    sister(shape) shape;
+    sister(pose) pose;
+    double numbers[3 * DIM]; /* what the support's data are made of */
+} widened;
+
+static double widened_points(const void *data, const double dir[DIM], double point[DIM])
+{
+    const points *p = data;
+    double highest = 0;
+    size_t best = 0;
+    for (size_t n = 0; n < p->count; n++) {
+        vec x = load(p->v + n * stride_of(p));
+        double height = 0;
+        for (int i = 0; i < DIM; i++) height += (double)x.c[i] * dir[i];
+        if (n > 0 && !(height > highest)) continue;
+        highest = height;
+        best = n;
+    }
+    for (int i = 0; i < DIM; i++) point[i] = (double)p->v[best * stride_of(p) + (size_t)i];
+    return (double)p->reach;
+}
+
+/* The data of every ready-made support but points are so many numbers and nothing else. */
+static int take_numbers(widened *w, const shape *s, sister(support_fn) * support, int n)
+{
+    const real *from = s->data;
+    for (int i = 0; i < n; i++) w->numbers[i] = (double)from[i];
+    w->shape.support = support;
+    w->shape.data = w->numbers;
+    return 1;
+}
+
+#define KIN(name, n)                                                                                                   \
+    if (s->support == pub(name)) return take_numbers(w, s, sister(name), n)
+
+/* The set in double. 0: it is nothing ready-made. */
+static int widen_set(widened *w, const shape *s)
+{
+    KIN(support_origin, 0);
+    KIN(support_segment, 2 * DIM);
+    KIN(support_box, DIM);
+    KIN(support_ball, 1);
+#if DIM == 3
+    KIN(support_triangle, 3 * DIM);
+    KIN(support_cylinder, 2);
+    KIN(support_cone, 2);
+    KIN(support_disc, 1);
+#endif
+    w->shape.support = widened_points;
+    w->shape.data = s->data;
+    return s->support == pub(support_points);
+}
+
+static int widen(widened *w, const shape *s)
+{
+    for (int i = 0; i < DIM * DIM && s->pose; i++) w->pose.m[i] = (double)s->pose->m[i];
+    for (int i = 0; i < DIM && s->pose; i++) w->pose.p[i] = (double)s->pose->p[i];
+    w->shape.pose = s->pose ? &w->pose : NULL;
+    w->shape.radius = (double)s->radius;
+    return widen_set(w, s);
+}
+
+static real rounded_down(double x)
+{
+    real r = (real)x;
+    return (double)r > x ? lower_neighbour(r) : r;
+}
+
+/* As many digits as float can show are asked for, unless all are. */
+static sister(options) sister_options(const options *o, const search *q)
+{
+    sister(options) r = {.size = sizeof r, .max_steps = o->max_steps - (uint32_t)q->steps};
+    double digit = (double)UNIT / 4;
+    r.abs_tol = (double)o->abs_tol + (o->tight ? 0 : digit * (double)q->d.unscale);
+    r.rel_tol = (double)o->rel_tol + digit;
+    r.cutoff = (double)o->cutoff;
+    return r;
+}
+
+/* Puts the question to the sister. From 0 up, her status: r's bracket is narrowed by hers, her value and points stand
+ * in it, her steps and calls are counted. */
+static APART int ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    widened wide_a, wide_b;
+    sister(result) hers;
+    sister(options) asked = sister_options(o, q);
+    if (q->steps >= g->max_steps || !widen(&wide_a, a) || !widen(&wide_b, b)) return GJK_BAD_SUPPORT;
+    int status = g->sign_only ? sister(intersect)(&wide_a.shape, &wide_b.shape, &asked, &hers)
+                              : sister(distance)(&wide_a.shape, &wide_b.shape, &asked, &hers);
+    if (status < 0) return status;
+    real lower = rounded_down(hers.lower), upper = -rounded_down(-hers.upper);
+    r->value = (real)hers.value;
+    if (lower > r->lower) {
+        r->lower = lower;
+        for (int i = 0; i < DIM; i++) r->normal[i] = (real)hers.normal[i];
+    }
+    if (upper < r->upper) {
+        r->upper = upper;
+        for (int i = 0; i < DIM; i++) r->point_a[i] = (real)hers.point_a[i];
+        for (int i = 0; i < DIM; i++) r->point_b[i] = (real)hers.point_b[i];
+    }
+    q->steps += hers.steps;
+    q->d.calls += hers.supports;
+    return status;
+}
+
+#endif
+#endif

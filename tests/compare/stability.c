@@ -1,0 +1,550 @@
+/* SPDX-License-Identifier: MIT */
+/* How the library and its peers stand up to the families of pairs and to the cases, measured by exact truth.
+ *
+ *   stability PAIRS SEED OUTPUT [NAME=MODULE...]     writes JSON, one object a line, for page.py
+ *
+ * A peer without a module is named as missing. Ends with 1 where the library failed, and where a peer is missing that
+ * the environment variable GJK_COMPARE_NEEDS names. */
+#include "../exact.h"
+#include "../pairs.h"
+#include "../truth.h"
+#include "ask.h"
+
+#if VARIANT_DIM == 3 && !VARIANT_FLOAT
+#include "cases3.h"
+#define C(name) case3##name
+#define K(name) CASE3_##name
+#elif VARIANT_DIM == 3
+#include "cases3f.h"
+#define C(name) case3f##name
+#define K(name) CASE3F_##name
+#elif !VARIANT_FLOAT
+#include "cases2.h"
+#define C(name) case2##name
+#define K(name) CASE2_##name
+#else
+#include "cases2f.h"
+#define C(name) case2f##name
+#define K(name) CASE2F_##name
+#endif
+
+#define VALUE_ERROR 4.0   /* in u * scale, of polytopes */
+#define TIGHT_ERROR 1.0   /* in ulp */
+#define TIGHT_WIDTH 2.0   /* likewise */
+#define TELLS 300.0       /* in u * span: farther apart, or deeper, intersect must say so */
+#define FAR_FROM_IT 1e-9  /* of the scale: a wrong verdict so far from contact is no matter of rounding */
+#define NEAR_IT 4.0       /* in u * scale: so near to contact any verdict will do */
+#define MOST_COUNTED 1000 /* in u * scale: an error beyond is called a wrong answer */
+
+/* Two more groups than families: the museum, whose cases broke other libraries, and the other cases. */
+#define MUSEUM FAMILIES
+#define WORKED (FAMILIES + 1)
+#define GROUPS (FAMILIES + 2)
+
+static const char *group_name(int group)
+{
+    return group == MUSEUM ? "museum" : group == WORKED ? "worked cases" : family_name[group];
+}
+
+/* ---- the pairs ---- */
+
+static body bodies[16];
+static int bodies_used;
+
+static const body *body_of(const C(_shape) * s)
+{
+    static const enum kind kinds[] = {[K(ORIGIN)] = ORIGIN,     [K(POINTS)] = POINTS,     [K(BOX)] = BOX,
+                                      [K(SEGMENT)] = SEGMENT,   [K(TRIANGLE)] = TRIANGLE, [K(BALL)] = BALL,
+                                      [K(CYLINDER)] = CYLINDER, [K(CONE)] = CONE,         [K(DISC)] = DISC,
+                                      [K(SUM)] = SUM,           [K(HULL)] = HULL};
+    body *b = &bodies[bodies_used++];
+    if (bodies_used > 16 || s->count > MAX_POINTS) {
+        fprintf(stderr, "a case is too large for its body\n");
+        abort();
+    }
+    start_body(b, kinds[s->kind]);
+    b->count = b->kind == POINTS ? (int)s->count : b->kind == SEGMENT ? 2 : b->kind == TRIANGLE ? 3 : 0;
+    if (b->count) {
+        memcpy(b->v, s->numbers, (size_t)b->count * sizeof b->v[0]);
+    } else if (b->kind == BOX) {
+        memcpy(b->half, s->numbers, sizeof b->half);
+    } else if (b->kind >= CYLINDER && b->kind <= BALL) {
+        b->radius = s->numbers[0];
+        b->half_length = b->kind <= CONE ? s->numbers[1] : 0;
+    } else if (b->kind == SUM || b->kind == HULL) {
+        b->part[0] = body_of(s->a);
+        b->part[1] = body_of(s->b);
+    }
+    if (s->pose) {
+        memcpy(b->pose.m, s->pose, sizeof b->pose.m);
+        memcpy(b->pose.p, s->pose + DIM * DIM, sizeof b->pose.p);
+    }
+    bind(b);
+    b->shape.radius = s->radius;
+    return b;
+}
+
+static int is_extreme_group(int group) { return group < FAMILIES && is_extreme((enum family)group); }
+
+static uint64_t seed;
+static long pairs_per_family;
+static const char *missing[MOST_PEERS];
+static int missing_count;
+
+static int is_museum(const C() * c) { return strcmp(c->group, "museum") == 0; }
+
+/* The pair of that index, and what is known of it. 0: there are no more. */
+static int get_pair(int group, long index, const body **a, const body **b, truth *t)
+{
+    static pair p;
+    size_t at = 0;
+    if (group < FAMILIES) {
+        draws d = draws_from(seed, (uint64_t)group, (uint64_t)index);
+        if (index >= pairs_per_family) {
+            return 0;
+        }
+        draw_pair(&d, (enum family)group, &p);
+        *a = &p.a;
+        *b = &p.b;
+        find_truth(t, *a, *b, 1);
+        return 1;
+    }
+    for (long left = index; at < C(_count) && (is_museum(&C(_all)[at]) != (group == MUSEUM) || left-- > 0); at++) {
+    }
+    if (at == C(_count)) {
+        return 0;
+    }
+    bodies_used = 0;
+    *a = body_of(&C(_all)[at].a);
+    *b = body_of(&C(_all)[at].b);
+    find_truth(t, *a, *b, 1);
+    if (t->lower > 0) { /* a case's own bracket of the distance is of exact arithmetic */
+        const C() *c = &C(_all)[at];
+        quad low = (quad)c->lower_hi + (quad)c->lower_lo, high = (quad)c->upper_hi + (quad)c->upper_lo;
+        t->lower = low > t->lower ? low : t->lower;
+        t->upper = high < t->upper ? high : t->upper;
+    }
+    return 1;
+}
+
+/* ---- ours ---- */
+
+typedef struct tally {
+    int group;
+    long pairs, apart, meeting, failures, violations, tight_pairs;
+    double max_error, max_round_error, max_width, max_tight_error, max_tight_width, sum_calls, max_calls;
+} tally;
+
+static struct {
+    const body *a, *b;
+    const truth *truth;
+    double span;
+    int exact; /* the truth is known without any rounding */
+    tally *tally;
+    long index;
+} now;
+
+static exact exactly; /* of the pair at hand, if now.exact */
+
+static void tell(const char *what, double by, const V(result) * r)
+{
+    const truth *t = now.truth;
+    if (now.tally->failures + now.tally->violations > 3) {
+        return;
+    }
+    fprintf(stderr, "%s, %s %ld: %s (%.3g)\n", VARIANT, group_name(now.tally->group), now.index, what, by);
+    fprintf(stderr, "  answer %.17g in %.17g .. %.17g, status %d; truth %.17g + %.3g, scale %.3g\n  ", (double)r->value,
+            (double)r->lower, (double)r->upper, r->status, (double)t->lower, (double)(t->upper - t->lower),
+            (double)t->scale);
+    print_case(stderr, "distance", now.a, now.b);
+}
+
+static void failed(const char *what, double by, const V(result) * r)
+{
+    now.tally->failures++;
+    tell(what, by, r);
+}
+
+static void violated(const char *what, const V(result) * r)
+{
+    now.tally->violations++;
+    tell(what, 0, r);
+}
+
+/* What lies below the least normal number counts as one unit. */
+static double in_u(quad x, quad scale) { return (double)(x / (scale * (quad)U + (quad)REAL_MIN)); }
+
+static quad off(quad value, quad low, quad high) { return value > high ? value - high : value < low ? low - value : 0; }
+
+static void try_distance(void)
+{
+    const truth *t = now.truth;
+    tally *s = now.tally;
+    quad low = positive(t->lower), high = positive(t->upper);
+    int sharp = t->a.count && t->b.count;
+    double error, calls;
+    V(result) r;
+    memset(&r, 0, sizeof r);
+    if (V(distance)(&now.a->shape, &now.b->shape, NULL, &r) < 0) {
+        failed("no answer", r.status, &r);
+        return;
+    }
+    if (r.status != GJK_OK && r.status != GJK_FLOOR) {
+        failed("ended early", r.status, &r);
+    }
+    if (now.exact ? exact_above(&exactly, (double)r.lower) < 0 || exact_above(&exactly, (double)r.upper) > 0
+                  : (quad)r.lower > high || (quad)r.upper < low) {
+        violated("the bracket misses the truth", &r);
+    }
+    if (!(r.lower <= r.value && r.value <= r.upper)) {
+        violated("the value is outside its bracket", &r);
+    }
+    error = in_u(off((quad)r.value, low, high), t->scale);
+    if (!(error <= VALUE_ERROR) && sharp) {
+        failed("the value is off, in u * scale", error, &r);
+    }
+    calls = r.supports / 2.0;
+    s->max_error = fmax(s->max_error, error);
+    s->max_width = fmax(s->max_width, in_u((quad)r.upper - (quad)r.lower, t->scale));
+    s->sum_calls += calls;
+    s->max_calls = fmax(s->max_calls, calls);
+}
+
+/* What options.tight is for. */
+static int is_literal(const body *b)
+{
+    return b->kind == POINTS || b->kind == CLOUD || b->kind == BOX || b->kind == SEGMENT || b->kind == TRIANGLE ||
+           b->kind == ORIGIN;
+}
+
+/* Whole numbers of any length decide here. */
+static void try_tight(void)
+{
+    tally *s = now.tally;
+    double ulp, error, width;
+    V(options) o = default_options();
+    V(result) r;
+    memset(&r, 0, sizeof r);
+    o.tight = 1;
+    s->tight_pairs++;
+    if (V(distance)(&now.a->shape, &now.b->shape, &o, &r) < 0) {
+        failed("tight: no answer", r.status, &r);
+        return;
+    }
+    if (exact_above(&exactly, (double)r.lower) < 0 || exact_above(&exactly, (double)r.upper) > 0 ||
+        !(r.lower <= r.value && r.value <= r.upper)) {
+        violated("tight: the bracket misses the truth", &r);
+    }
+    if (exact_above(&exactly, 0) == 0) {
+        if (r.value != 0 || r.upper != 0) {
+            failed("tight: they meet, yet it is not 0", (double)r.upper, &r);
+        }
+        return;
+    }
+    ulp = ulp_of(mpf_get_d(exactly.distance));
+    error = exact_error(&exactly, (double)r.value, ulp);
+    width = (double)(((quad)r.upper - (quad)r.lower) / (quad)ulp);
+    s->max_tight_error = fmax(s->max_tight_error, error);
+    s->max_tight_width = fmax(s->max_tight_width, width);
+    if (!(error <= TIGHT_ERROR)) {
+        failed("tight: the value is off, in ulp", error, &r);
+    }
+    if (!(width <= TIGHT_WIDTH)) {
+        failed("tight: the bracket is wide, in ulp", width, &r);
+    }
+}
+
+static void try_intersect(void)
+{
+    const truth *t = now.truth;
+    V(result) r;
+    memset(&r, 0, sizeof r);
+    if (V(intersect)(&now.a->shape, &now.b->shape, NULL, &r) < 0) {
+        failed("intersect: no answer", r.status, &r);
+        return;
+    }
+    if ((quad)r.lower > t->upper || (quad)r.upper < t->lower || !(r.lower <= r.value && r.value <= r.upper)) {
+        violated("intersect: the bracket misses the truth", &r);
+    }
+    if (!(r.lower > 0) && in_u(t->lower, now.span) > TELLS) {
+        failed("intersect: not seen to be apart, in u * span", in_u(t->lower, now.span), &r);
+    }
+    if (!(r.upper <= 0) && in_u(-t->upper, now.span) > TELLS) {
+        failed("intersect: not seen to meet, in u * span", in_u(-t->upper, now.span), &r);
+    }
+}
+
+/* ---- theirs ---- */
+
+/* What a peer of either precision is fed: the corners, mapped in 113 bits, relative to the origin of a; then rounded.
+ */
+static double rounded_to(quad x, int single)
+{
+    quad most = single ? (quad)FLT_MAX : (quad)DBL_MAX;
+    return x > most ? HUGE_VAL : x < -most ? -HUGE_VAL : single ? (double)(float)x : (double)x;
+}
+
+/* Whether all numbers stayed in range. */
+static int feed(peer_set *set, double **numbers, const view *v, real radius, int single)
+{
+    int finite = 1;
+    double *x = *numbers = malloc((size_t)v->count * DIM * sizeof *x);
+    if (!x) {
+        abort();
+    }
+    for (int k = 0; k < v->count * DIM; k++) {
+        x[k] = rounded_to(v->v[k / DIM][k % DIM] * v->unit, single);
+        finite &= isfinite(x[k]) != 0;
+    }
+    set->count = v->count;
+    set->v = x;
+    set->radius = rounded_to((quad)radius, single);
+    return finite && isfinite(set->radius);
+}
+
+/* A round body, or one out of range, is not fed: its count stays 0. */
+static void feed_pair(fed *f, int single)
+{
+    memset(f, 0, sizeof *f);
+    if (now.truth->a.count == 0 || now.truth->b.count == 0) {
+        return;
+    }
+    if (feed(&f->a, &f->numbers[0], &now.truth->a, now.a->shape.radius, single) &
+        feed(&f->b, &f->numbers[1], &now.truth->b, now.b->shape.radius, single)) {
+        find_fed_truth(f);
+    } else {
+        f->a.count = f->b.count = 0;
+    }
+}
+
+typedef struct peer_tally {
+    long asked, gave_up, crashed, hung;
+    long wrong, near_wrong; /* of verdicts: contradicts the truth far from contact, near it */
+    long over[3];           /* of distances: in u * scale beyond 4, 16, 1000 */
+    double max_error;       /* of distances in u * scale, of wrong verdicts in scales */
+    long example;           /* a wrong answer to the smallest pair; where none is wrong, the largest error; -1: none */
+    int example_wrong, example_points;
+    double example_error;
+} peer_tally;
+
+/* How wrong a verdict is, in scales: 0 where it is right, or cannot be known. */
+static double verdict_error(const fed *f, int meet)
+{
+    quad by = meet ? f->lower : -f->upper;
+    return by > 0 ? (double)(by / f->scale) : 0;
+}
+
+static void keep_example(peer_tally *s, long index, int points, int wrong, double error)
+{
+    int better = wrong != s->example_wrong              ? wrong
+                 : wrong && points != s->example_points ? points < s->example_points
+                                                        : error > s->example_error;
+    if (better || (s->example < 0 && error > 0)) {
+        s->example = index;
+        s->example_wrong = wrong;
+        s->example_points = points;
+        s->example_error = error;
+    }
+}
+
+static void judge(peer_tally *s, const peer *p, const fed *f, const reply *r, long index)
+{
+    static const double marks[] = {4, 16, MOST_COUNTED};
+    double u = (p->single ? (double)FLT_EPSILON : DBL_EPSILON) / 2, error = 0;
+    int wrong = 1;
+    if (r->outcome == NOT_ASKED) {
+        return;
+    }
+    s->asked++;
+    s->gave_up += r->outcome == GAVE_UP;
+    s->crashed += r->outcome == CRASHED;
+    s->hung += r->outcome == HUNG;
+    if (r->outcome == ANSWERED && p->distances) {
+        quad unit = f->scale * (quad)u + (p->single ? (quad)FLT_MIN : (quad)DBL_MIN);
+        error = (double)(off((quad)r->answer.distance, positive(f->lower), positive(f->upper)) / unit);
+        for (int k = 0; k < 3; k++) {
+            s->over[k] += error > marks[k];
+        }
+        wrong = error > MOST_COUNTED;
+    } else if (r->outcome == ANSWERED) {
+        error = verdict_error(f, r->answer.meet);
+        error = error > NEAR_IT * u ? error : 0;
+        wrong = error > FAR_FROM_IT;
+        s->wrong += wrong;
+        s->near_wrong += !wrong && error > 0;
+    }
+    s->max_error = fmax(s->max_error, error);
+    keep_example(s, index, f->a.count + f->b.count, wrong, error);
+}
+
+/* ---- what is printed ---- */
+
+static void print_number(const char *key, double x)
+{
+    if (isfinite(x)) {
+        printf(", \"%s\": %.9g", key, x);
+    } else {
+        printf(", \"%s\": null", key);
+    }
+}
+
+static void print_tally(const tally *s)
+{
+    printf(
+        "{\"row\": \"ours\", \"variant\": \"%s\", \"group\": \"%s\", \"pairs\": %ld, \"apart\": %ld, \"meeting\": %ld, "
+        "\"failures\": %ld, \"violations\": %ld, \"tight_pairs\": %ld, \"extreme\": %d",
+        VARIANT, group_name(s->group), s->pairs, s->apart, s->meeting, s->failures, s->violations, s->tight_pairs,
+        is_extreme_group(s->group));
+    print_number("error", s->max_error);
+    print_number("width", s->max_width);
+    print_number("tight_error", s->max_tight_error);
+    print_number("tight_width", s->max_tight_width);
+    print_number("mean_calls", s->pairs ? s->sum_calls / (double)s->pairs : 0);
+    print_number("max_calls", s->max_calls);
+    printf("}\n");
+}
+
+static void print_peer_tally(const peer *p, int group, const peer_tally *s, const fed *pairs, const reply *replies)
+{
+    static const char *const outcomes[] = {"not asked", "answered", "gave up", "crashed", "hung"};
+    printf("{\"row\": \"peer\", \"variant\": \"%s\", \"group\": \"%s\", \"peer\": \"%s\", \"extreme\": %d, \"asked\": "
+           "%ld, \"gave_up\": %ld, "
+           "\"crashed\": %ld, \"hung\": %ld, \"wrong\": %ld, \"near_wrong\": %ld, \"over\": [%ld, %ld, %ld]",
+           VARIANT, group_name(group), p->name, is_extreme_group(group), s->asked, s->gave_up, s->crashed, s->hung,
+           s->wrong, s->near_wrong, s->over[0], s->over[1], s->over[2]);
+    print_number("error", s->max_error);
+    if (s->example >= 0) {
+        const fed *f = &pairs[s->example];
+        const reply *r = &replies[s->example];
+        printf(", \"example\": {\"index\": %ld, \"outcome\": \"%s\", \"meet\": %d", s->example, outcomes[r->outcome],
+               r->answer.meet);
+        print_number("distance", p->distances ? r->answer.distance : 0);
+        print_number("lower", (double)f->lower);
+        print_number("upper", (double)f->upper);
+        print_number("error", s->example_error);
+        printf(", \"case\": ");
+        print_fed_case(stdout, f, p->distances ? "distance" : "intersect");
+        printf("}");
+    }
+    printf("}\n");
+}
+
+static void print_head(const peer_list *peers)
+{
+    printf(
+        "{\"row\": \"head\", \"variant\": \"%s\", \"dim\": %d, \"precision\": \"%s\", \"pairs\": %ld, \"seed\": %llu, "
+        "\"version\": \"%s\", \"compiler\": \"%s\", \"peers\": [",
+        VARIANT, DIM, PRECISION, pairs_per_family, (unsigned long long)seed, GJK_TEST_VERSION, GJK_TEST_COMPILER);
+    for (int k = 0; k < peers->count; k++) {
+        const peer *p = peers->all[k];
+        printf("%s{\"name\": \"%s\", \"version\": \"%s\", \"how\": \"%s\", \"dim\": %d, \"single\": %d, "
+               "\"most_points\": %d, "
+               "\"radii\": %d, \"distances\": %d}",
+               k ? ", " : "", p->name, p->version, p->how, p->dim, p->single, p->most_points, p->radii, p->distances);
+    }
+    printf("], \"missing\": [");
+    for (int k = 0; k < missing_count; k++) {
+        printf("%s\"%s\"", k ? ", " : "", missing[k]);
+    }
+    printf("]}\n");
+}
+
+/* ---- all of it ---- */
+
+static void one_group(tally *s, const peer_list *peers)
+{
+    static truth t;
+    long most = s->group < FAMILIES ? pairs_per_family : (long)C(_count);
+    int single[2] = {0, 0};
+    fed *fed_pairs[2] = {NULL, NULL};
+    reply *replies = reply_space((int)most);
+    for (int k = 0; k < peers->count; k++) {
+        single[peers->all[k]->single] |= peers->all[k]->dim == DIM;
+    }
+    for (int k = 0; k < 2; k++) {
+        fed_pairs[k] = calloc((size_t)most, sizeof *fed_pairs[k]);
+        if (!fed_pairs[k]) {
+            abort();
+        }
+    }
+    now.tally = s;
+    now.truth = &t;
+    for (now.index = 0; get_pair(s->group, now.index, &now.a, &now.b, &t); now.index++) {
+        now.span = span_of_pair(now.a, now.b);
+        s->pairs++;
+        s->apart += t.lower > 0;
+        s->meeting += t.upper < 0;
+        now.exact = is_literal(now.a) && is_literal(now.b);
+        if (now.exact) {
+            exact_distance(&exactly, now.a, now.b);
+            try_tight();
+        }
+        try_distance();
+        try_intersect();
+        for (int k = 0; k < 2; k++) {
+            if (single[k]) {
+                feed_pair(&fed_pairs[k][now.index], k);
+            }
+        }
+    }
+    print_tally(s);
+    for (int k = 0; k < peers->count; k++) {
+        const peer *p = peers->all[k];
+        const fed *pairs = fed_pairs[p->single];
+        peer_tally theirs;
+        memset(&theirs, 0, sizeof theirs);
+        theirs.example = -1;
+        if (p->dim != DIM) {
+            continue;
+        }
+        ask_peer(p, pairs, (int)s->pairs, replies);
+        for (long i = 0; i < s->pairs; i++) {
+            judge(&theirs, p, &pairs[i], &replies[i], i);
+        }
+        print_peer_tally(p, s->group, &theirs, pairs, replies);
+    }
+    for (int k = 0; k < 2; k++) {
+        for (long i = 0; i < most; i++) {
+            free(fed_pairs[k][i].numbers[0]);
+            free(fed_pairs[k][i].numbers[1]);
+        }
+        free(fed_pairs[k]);
+    }
+    fflush(stdout);
+}
+
+int main(int argc, char **argv)
+{
+    static peer_list peers;
+    const char *needs = getenv("GJK_COMPARE_NEEDS");
+    long bad = 0;
+    if (argc < 4 || !freopen(argv[3], "w", stdout)) {
+        fprintf(stderr, "usage: stability PAIRS SEED OUTPUT [NAME=MODULE...]\n");
+        return 2;
+    }
+    pairs_per_family = strtol(argv[1], NULL, 10);
+    seed = strtoull(argv[2], NULL, 10);
+    for (int k = 4; k < argc; k++) {
+        char *path = strchr(argv[k], '=');
+        if (!path || missing_count == MOST_PEERS) {
+            return 2;
+        }
+        *path++ = 0;
+        if (!*path || !load_peers(&peers, path)) {
+            missing[missing_count++] = argv[k];
+            fprintf(stderr, "%s: the peer %s is missing\n", VARIANT, argv[k]);
+            bad += needs && strstr(needs, argv[k]);
+        }
+    }
+    print_head(&peers);
+    exact_start(&exactly);
+    for (int group = 0; group < GROUPS; group++) {
+        tally s;
+        memset(&s, 0, sizeof s);
+        s.group = group;
+        one_group(&s, &peers);
+        bad += s.failures + s.violations;
+    }
+    printf("{\"row\": \"end\"}\n");
+    return fclose(stdout) != 0 || bad != 0;
+}

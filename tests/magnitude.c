@@ -1,0 +1,627 @@
+/* SPDX-License-Identifier: MIT */
+/* Any magnitude: a scene in another unit, a power of two apart, has the same answer to the bit as long as its numbers
+ * are normal ones; where they are subnormal or about to overflow the bracket holds the truth all the same, or the pair
+ * is refused; and how far from the world's origin the bodies are costs what their coordinates lose by it, no more. */
+#include "pairs.h"
+#include "truth.h"
+
+#if VARIANT_FLOAT
+#define LEAST_EXPONENT FLT_MIN_EXP
+#define MOST_EXPONENT FLT_MAX_EXP
+#define FRACTION_BITS 23
+#else
+#define LEAST_EXPONENT DBL_MIN_EXP
+#define MOST_EXPONENT DBL_MAX_EXP
+#define FRACTION_BITS 52
+#endif
+
+#define THOROUGH 1 /* pairs of each family at each power of two */
+#define PAIRS 30   /* of each family at some of them */
+#define POWERS 8
+/* What a pair adds up to on the way is at most so many binades above its largest number, and with couples, whose reach
+ * is a generous bound, so many more: nothing may be refused that is farther below the largest number of all. */
+#define HEADROOM 8
+#define HEADROOM_OF_COUPLES 4
+#define VALUE_ERROR 4.0 /* in u * scale */
+
+/* Of sizes from which there is room up and down, and spelled in the body itself. */
+static int is_plain(enum family f) { return !is_extreme(f) && f != CLOUDS; }
+
+/* ---- another unit ---- */
+
+static real resized(real x, int k) { return (real)ldexp((double)x, k); }
+
+static void resize_all(real *out, const real *in, int count, int k)
+{
+    for (int i = 0; i < count; i++) {
+        out[i] = resized(in[i], k);
+    }
+}
+
+/* The set's own lengths by 2^set, its map by 2^map: the body in the world by both. */
+static void resize_body(body *out, const body *in, int set, int map)
+{
+    resize_all(out->v[0], in->v[0], MAX_POINTS * DIM, set);
+    resize_all(out->half, in->half, DIM, set);
+    out->radius = resized(in->radius, set);
+    out->half_length = resized(in->half_length, set);
+    resize_all(out->pose.m, in->pose.m, DIM * DIM, map);
+    resize_all(out->pose.p, in->pose.p, DIM, set + map);
+    out->shape.radius = resized(in->shape.radius, set + map);
+}
+
+static void resize_pair(pair *out, const pair *in, int set, int map)
+{
+    *out = *in;
+    resize_body(&out->a, &in->a, set, map);
+    resize_body(&out->b, &in->b, set, map);
+    for (int i = 0; i < 4; i++) {
+        resize_body(&out->part[i], &in->part[i], set, 0);
+    }
+    bind_pair(out);
+}
+
+/* The binades of the numbers that are not 0. */
+typedef struct range {
+    int least, most;
+} range;
+
+static void note_binades(range *r, const real *x, int count)
+{
+    for (int i = 0; i < count; i++) {
+        int e;
+        if (x[i] != 0) {
+            frexp((double)x[i], &e);
+            r->least = e < r->least ? e : r->least;
+            r->most = e > r->most ? e : r->most;
+        }
+    }
+}
+
+static void note_set(range *r, const body *b)
+{
+    note_binades(r, b->v[0], MAX_POINTS * DIM);
+    note_binades(r, b->half, DIM);
+    note_binades(r, &b->radius, 1);
+    note_binades(r, &b->half_length, 1);
+}
+
+static int headroom(const pair *p)
+{
+    return HEADROOM + (is_couple(&p->a) || is_couple(&p->b) ? HEADROOM_OF_COUPLES : 0);
+}
+
+/* Of the sets' own lengths, of those in the world, and of the maps. */
+static void note_pair(const pair *p, range *own, range *world, range *maps)
+{
+    const body *whole[2] = {&p->a, &p->b};
+    *own = *world = *maps = (range){INT16_MAX, INT16_MIN};
+    for (int k = 0; k < 2; k++) {
+        note_set(own, whole[k]);
+        note_binades(world, whole[k]->pose.p, DIM);
+        note_binades(world, &whole[k]->shape.radius, 1);
+        note_binades(maps, whole[k]->pose.m, DIM * DIM);
+        for (int i = 0; i < 2 && is_couple(whole[k]); i++) {
+            const body *part = &p->part[2 * k + i];
+            note_set(own, part);
+            note_binades(own, part->pose.p, DIM);
+            note_binades(own, &part->shape.radius, 1);
+        }
+    }
+    /* what the maps make of the sets is in the world too */
+    world->most = own->most + maps->most > world->most ? own->most + maps->most : world->most;
+}
+
+/* ---- the same bits ---- */
+
+#define ANSWERS 12
+
+typedef struct answers {
+    V(result) r[ANSWERS];
+} answers;
+
+typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
+static query_fn *const queries[2] = {V(distance), V(intersect)};
+
+/* Cold by default and tight; with every option; and along a warm path of three places. */
+static void ask_all(const pair *given, int set, int map, answers *out)
+{
+    static pair p;
+    V(options) o = default_options();
+    V(cache) cache;
+    int n = 0;
+    memset(out, 0, sizeof *out);
+    memset(&cache, 0, sizeof cache);
+    p = *given;
+    bind_pair(&p);
+    for (int tight = 0; tight < 2; tight++) {
+        for (int q = 0; q < 2; q++) {
+            o = default_options();
+            o.tight = (uint32_t)tight;
+            out->r[n].status = queries[q](&p.a.shape, &p.b.shape, &o, &out->r[n]);
+            n++;
+        }
+    }
+    o = default_options();
+    o.abs_tol = resized((real)0.01, set + map);
+    o.rel_tol = (real)0.01;
+    o.slack = resized((real)0.001, set);
+    out->r[n].status = V(distance)(&p.a.shape, &p.b.shape, &o, &out->r[n]);
+    n++;
+    o = default_options();
+    o.cutoff = resized((real)0.25, set + map);
+    o.max_steps = 3;
+    out->r[n].status = V(distance)(&p.a.shape, &p.b.shape, &o, &out->r[n]);
+    n++;
+    if (p.a.kind == POINTS) {
+        p.a.set.points.reach = 0; /* not known: found out */
+    }
+    for (int q = 0; q < 2; q++) {
+        out->r[n].status = queries[q](&p.a.shape, &p.b.shape, NULL, &out->r[n]);
+        n++;
+    }
+    bind_pair(&p);
+    o = default_options();
+    o.cache = &cache;
+    for (int step = 0; n < ANSWERS; step++, n++) {
+        o.tight = step == 3;
+        out->r[n].status = queries[step % 2](&p.a.shape, &p.b.shape, &o, &out->r[n]);
+        p.b.pose.p[step % DIM] += resized((real)0.015625, set + map);
+    }
+}
+
+static const char *const field_name[] = {"value",  "lower",  "upper", "point_a", "point_b",
+                                         "normal", "status", "steps", "supports"};
+
+/* 0, or a normal number in both units. */
+static int is_normal(real x, int k)
+{
+    int e;
+    frexp((double)x, &e);
+    return x == 0 || (e >= LEAST_EXPONENT && e + k >= LEAST_EXPONENT && e + k <= MOST_EXPONENT);
+}
+
+static int is_normal_answer(const V(result) * x, int k)
+{
+    return x->status < 0 || (is_normal(x->value, k) && is_normal(x->lower, k) && is_normal(x->upper, k));
+}
+
+/* A coordinate of a point that is not normal in one of the units need not be the same. */
+static int same_number(real x, real y, int k) { return !is_normal(x, k) || (double)y == ldexp((double)x, k); }
+
+static int same_numbers(const real *x, const real *y, int k)
+{
+    int same = 1;
+    for (int i = 0; i < DIM; i++) {
+        same &= same_number(x[i], y[i], k);
+    }
+    return same;
+}
+
+/* The index of the first field that differs, -1 where none does. */
+static int first_difference(const V(result) * x, const V(result) * y, int k)
+{
+    const int same[] = {same_number(x->value, y->value, k),
+                        same_number(x->lower, y->lower, k),
+                        same_number(x->upper, y->upper, k),
+                        same_numbers(x->point_a, y->point_a, k),
+                        same_numbers(x->point_b, y->point_b, k),
+                        same_numbers(x->normal, y->normal, 0),
+                        x->status == y->status,
+                        x->steps == y->steps,
+                        x->supports == y->supports};
+    if (x->status != y->status) {
+        return 6;
+    }
+    for (int i = 0; i < 9; i++) {
+        if (!same[i]) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static struct {
+    long compared, different, refused;
+    int least, most; /* powers where something differed */
+} seen;
+
+static void must_be_same(const pair *p, const answers *x, const answers *y, int set, int map, int may_refuse)
+{
+    for (int i = 0; i < ANSWERS; i++) {
+        int k = set + map, field;
+        if (may_refuse && y->r[i].status < 0) {
+            seen.refused++;
+            continue;
+        }
+        if (!is_normal_answer(&x->r[i], k)) {
+            continue;
+        }
+        field = first_difference(&x->r[i], &y->r[i], k);
+        seen.compared++;
+        if (field < 0) {
+            continue;
+        }
+        seen.least = k < seen.least ? k : seen.least;
+        seen.most = k > seen.most ? k : seen.most;
+        if (seen.different++ == 0) {
+            print_error("%s: %s of answer %d is not the same at 2^%d (maps by 2^%d)\n", VARIANT, field_name[field], i,
+                        k, map);
+            print_error("  status %d %.17g .. %.17g .. %.17g\n  status %d %.17g .. %.17g .. %.17g  times 2^-%d\n  ",
+                        x->r[i].status, (double)x->r[i].lower, (double)x->r[i].value, (double)x->r[i].upper,
+                        y->r[i].status, ldexp((double)y->r[i].lower, -k), ldexp((double)y->r[i].value, -k),
+                        ldexp((double)y->r[i].upper, -k), k);
+            print_case(stderr, i % 2 ? "intersect" : "distance", &p->a, &p->b);
+        }
+    }
+}
+
+/* Whether the options' lengths are normal at these powers; they are of 2^-10 to 1/4 in the pair's own unit. */
+static int options_are_normal(int set, int map)
+{
+    return set - 9 >= LEAST_EXPONENT && set + map - 9 >= LEAST_EXPONENT && set + map <= MOST_EXPONENT;
+}
+
+static void compare(const pair *p, const answers *plain, int set, int map)
+{
+    static pair other;
+    static answers y;
+    range own, world, maps;
+    note_pair(p, &own, &world, &maps);
+    if (own.most < LEAST_EXPONENT && world.most < LEAST_EXPONENT) {
+        return; /* a pair without any length has no unit */
+    }
+    if (own.least + set < LEAST_EXPONENT || own.most + set > MOST_EXPONENT ||
+        world.least + set + map < LEAST_EXPONENT || world.most + set + map > MOST_EXPONENT ||
+        maps.least + map < LEAST_EXPONENT || maps.most + map > MOST_EXPONENT || !options_are_normal(set, map)) {
+        return;
+    }
+    resize_pair(&other, p, set, map);
+    ask_all(&other, set, map, &y);
+    must_be_same(p, plain, &y, set, map,
+                 own.most + set > MOST_EXPONENT - headroom(p) || world.most + set + map > MOST_EXPONENT - headroom(p) ||
+                     maps.most + map > MOST_EXPONENT - 2);
+}
+
+static int any_power(draws *d) { return below(d, MOST_EXPONENT - LEAST_EXPONENT) + LEAST_EXPONENT; }
+
+static void another_unit(void **state)
+{
+    static pair p;
+    static answers plain;
+    (void)state;
+    memset(&seen, 0, sizeof seen);
+    for (int f = 0; f < FAMILIES; f++) {
+        if (!is_plain((enum family)f)) {
+            continue;
+        }
+        for (uint64_t i = 0; i < PAIRS; i++) {
+            draws d = draws_from(4, (uint64_t)f, i);
+            draw_pair(&d, (enum family)f, &p);
+            ask_all(&p, 0, 0, &plain);
+            for (int k = LEAST_EXPONENT; k <= MOST_EXPONENT && i < THOROUGH; k++) {
+                compare(&p, &plain, k, 0);
+            }
+            for (int n = 0; n < POWERS; n++) {
+                compare(&p, &plain, any_power(&d), 0);
+            }
+        }
+    }
+    printf("%-6s another unit: %ld answers compared, %ld differ, from 2^%d to 2^%d; %ld refused near overflow\n",
+           VARIANT, seen.compared, seen.different, seen.least, seen.most, seen.refused);
+    assert_true(seen.compared > 10000);
+    assert_int_equal(seen.different, 0);
+}
+
+/* The set smaller and its map larger by as much, or both. */
+static void another_unit_by_the_map(void **state)
+{
+    static pair p;
+    static answers plain;
+    (void)state;
+    memset(&seen, 0, sizeof seen);
+    for (int f = 0; f < FAMILIES; f++) {
+        if (!is_plain((enum family)f)) {
+            continue;
+        }
+        for (uint64_t i = 0; i < PAIRS; i++) {
+            draws d = draws_from(5, (uint64_t)f, i);
+            draw_pair(&d, (enum family)f, &p);
+            ask_all(&p, 0, 0, &plain);
+            for (int n = 0; n < POWERS; n++) {
+                int map = any_power(&d);
+                compare(&p, &plain, n % 3 ? any_power(&d) / (n % 3) : -map, map);
+            }
+        }
+    }
+    printf("%-6s by the map: %ld answers compared, %ld differ, from 2^%d to 2^%d; %ld refused near overflow\n", VARIANT,
+           seen.compared, seen.different, seen.least, seen.most, seen.refused);
+    assert_true(seen.compared > 1000);
+    assert_int_equal(seen.different, 0);
+}
+
+/* ---- subnormal numbers, and overflow ---- */
+
+static const pair *asked; /* for the message */
+
+static void expect_bracket(const V(result) * r, int k, const truth *t, int query)
+{
+    /* the truth itself is good to 1e-28 of the size */
+    quad small = ((quad)t->a.size + (quad)t->b.size) * (quad)1e-28, unit = 1;
+    quad lower = (query ? t->lower : positive(t->lower)) - small,
+         upper = (query ? t->upper : positive(t->upper)) + small;
+    for (int i = 0; i < abs(k); i++) {
+        unit = k > 0 ? unit * 2 : unit / 2;
+    }
+    if ((quad)r->lower <= upper * unit && lower * unit <= (quad)r->upper && r->lower <= r->value &&
+        r->value <= r->upper) {
+        return;
+    }
+    print_error("%s %s at 2^%d: status %d %.17g .. %.17g .. %.17g, truth %.17g * 2^%d, of\n  ", VARIANT,
+                query ? "intersect" : "distance", k, r->status, (double)r->lower, (double)r->value, (double)r->upper,
+                (double)t->upper, k);
+    print_case(stderr, query ? "intersect" : "distance", &asked->a, &asked->b);
+    fail();
+}
+
+/* All four kinds of query of the pair made larger or smaller by 2^k; what rounding takes from its numbers there changes
+ * the pair, so the truth is that of the pair brought back, which is exact. may_refuse: the pair is near overflow. */
+static long expect_brackets(const pair *p, int k, int may_refuse)
+{
+    static pair there, back;
+    static truth t;
+    V(options) o = default_options();
+    V(result) r, before;
+    long refused = 0;
+    resize_pair(&there, p, k, 0);
+    resize_pair(&back, &there, -k, 0);
+    find_truth(&t, &back.a, &back.b, 1);
+    memset(&before, 0x5a, sizeof before);
+    asked = &there;
+    for (int n = 0; n < 4; n++) {
+        o.tight = (uint32_t)(n / 2);
+        r = before;
+        int status = queries[n % 2](&there.a.shape, &there.b.shape, &o, &r);
+        if (status < 0) {
+            if (!may_refuse) {
+                print_error("%s %s at 2^%d is refused:\n  ", VARIANT, n % 2 ? "intersect" : "distance", k);
+                print_case(stderr, n % 2 ? "intersect" : "distance", &there.a, &there.b);
+                fail();
+            }
+            assert_memory_equal(&r, &before, sizeof r);
+            refused++;
+        } else {
+            expect_bracket(&r, k, &t, n % 2);
+        }
+    }
+    return refused;
+}
+
+/* From the last binade in which all numbers are normal, down to where all are 0. */
+static void subnormal_numbers(void **state)
+{
+    static pair p;
+    (void)state;
+    for (int f = 0; f < FAMILIES; f++) {
+        if (!is_plain((enum family)f)) {
+            continue;
+        }
+        for (uint64_t i = 0; i < PAIRS; i++) {
+            draws d = draws_from(6, (uint64_t)f, i);
+            draw_pair(&d, (enum family)f, &p);
+            for (int n = 0; n < POWERS / 2; n++) {
+                expect_brackets(&p, LEAST_EXPONENT - below(&d, FRACTION_BITS + 4), 0);
+            }
+        }
+    }
+}
+
+/* Up to where the largest number is in the topmost binade. What is refused there is refused; what is answered is right.
+ */
+static void numbers_near_overflow(void **state)
+{
+    static pair p;
+    long refused = 0, answered = 0;
+    (void)state;
+    for (int f = 0; f < FAMILIES; f++) {
+        if (!is_plain((enum family)f)) {
+            continue;
+        }
+        for (uint64_t i = 0; i < PAIRS; i++) {
+            draws d = draws_from(7, (uint64_t)f, i);
+            range own, world, maps;
+            draw_pair(&d, (enum family)f, &p);
+            note_pair(&p, &own, &world, &maps);
+            for (int n = 0; n < POWERS / 2; n++) {
+                int spare = below(&d, 3 * headroom(&p)), most = own.most > world.most ? own.most : world.most;
+                if (most < LEAST_EXPONENT) {
+                    continue; /* nothing but zeros */
+                }
+                refused += expect_brackets(&p, MOST_EXPONENT - spare - most, spare < headroom(&p));
+                answered += 4;
+            }
+        }
+    }
+    answered -= refused;
+    printf("%-6s near overflow: %ld answers, %ld refused\n", VARIANT, answered, refused);
+    assert_true(answered > 2 * refused);
+}
+
+/* ---- far from the origin ---- */
+
+static void expect_good_value(const body *a, const body *b, double *worst)
+{
+    static truth t;
+    V(options) o = default_options();
+    V(result) r;
+    double error;
+    find_truth(&t, a, b, 1);
+    for (int n = 0; n < 4; n++) {
+        o.tight = (uint32_t)(n / 2);
+        memset(&r, 0, sizeof r);
+        assert_true(queries[n % 2](&a->shape, &b->shape, &o, &r) >= 0);
+        expect_bracket(&r, 0, &t, n % 2);
+        if (n % 2 == 0) {
+            error = (double)(quad_abs((quad)r.value - positive(t.upper)) / ((quad)U * t.scale + (quad)REAL_MIN));
+            if (error > VALUE_ERROR && *worst <= VALUE_ERROR) {
+                print_error("%s: value %.17g, truth %.17g, %.2f u * scale, of\n  ", VARIANT, (double)r.value,
+                            (double)t.upper, error);
+                print_case(stderr, "distance", a, b);
+            }
+            *worst = fmax(*worst, error);
+        }
+    }
+}
+
+/* Both bodies moved out by 1e12 of their sizes, which rounds their places, often to one and the same; the truth is that
+ * of the places as rounded, and the offset is not in the scale. */
+static void far_from_the_origin(void **state)
+{
+    static pair p;
+    double worst = 0;
+    (void)state;
+    for (int f = 0; f < POLYTOPES; f++) {
+        if (!is_plain((enum family)f)) {
+            continue;
+        }
+        for (uint64_t i = 0; i < 10 * PAIRS; i++) {
+            draws d = draws_from(8, (uint64_t)f, i);
+            double dir[DIM];
+            draw_pair(&d, (enum family)f, &p);
+            unit(&d, dir);
+            move(&p.a, dir, 1e12);
+            move(&p.b, dir, 1e12);
+            asked = &p;
+            expect_good_value(&p.a, &p.b, &worst);
+        }
+    }
+    printf("%-6s 1e12 sizes from the origin: error at most %.2f u * scale\n", VARIANT, worst);
+    assert_true(worst <= VALUE_ERROR);
+}
+
+/* The vertices themselves stand far out, no pose says so. */
+static void far_vertices(void **state)
+{
+    static pair p;
+    double worst = 0;
+    (void)state;
+    for (uint64_t i = 0; i < 100 * PAIRS; i++) {
+        draws d = draws_from(9, 0, i);
+        double dir[DIM], far = magnitude(&d, 0, 12);
+        memset(&p, 0, sizeof p);
+        draw_hull(&d, &p.a, 1 + below(&d, 12), 1);
+        draw_hull(&d, &p.b, 1 + below(&d, 12), 1);
+        unit(&d, dir);
+        for (int k = 0; k < MAX_POINTS; k++) {
+            for (int j = 0; j < DIM; j++) {
+                p.a.v[k][j] = (real)((double)p.a.v[k][j] + dir[j] * far);
+                p.b.v[k][j] = (real)((double)p.b.v[k][j] + dir[j] * (far + 1.5));
+            }
+        }
+        bind_pair(&p);
+        p.a.shape.pose = p.b.shape.pose = NULL;
+        asked = &p;
+        expect_good_value(&p.a, &p.b, &worst);
+    }
+    printf("%-6s vertices 1 to 1e12 sizes from the origin: error at most %.2f u * scale\n", VARIANT, worst);
+    assert_true(worst <= VALUE_ERROR);
+}
+
+/* The pair as it is from a, where a's map is a turn: a has no pose, b's is turned back by it, to rounding. */
+static void see_from_a(pair *p)
+{
+    V(pose) a = p->a.pose, b = p->b.pose;
+    for (int i = 0; i < DIM; i++) {
+        double at = 0;
+        for (int j = 0; j < DIM; j++) {
+            double sum = 0;
+            for (int k = 0; k < DIM; k++) {
+                sum += (double)a.m[k * DIM + i] * (double)b.m[k * DIM + j];
+            }
+            p->b.pose.m[i * DIM + j] = (real)sum;
+            p->a.pose.m[i * DIM + j] = i == j;
+            at += (double)a.m[j * DIM + i] * ((double)b.p[j] - (double)a.p[j]);
+        }
+        p->b.pose.p[i] = (real)at;
+        p->a.pose.p[i] = 0;
+    }
+    p->a.shape.pose = NULL;
+}
+
+/* b given relative to a, which has no pose: the world's offset is in no number, and nothing is lost to it. */
+static void relative_to_a(void **state)
+{
+    static pair p;
+    double worst = 0;
+    (void)state;
+    for (int f = 0; f < POLYTOPES; f++) {
+        if (!is_plain((enum family)f)) {
+            continue;
+        }
+        for (uint64_t i = 0; i < 10 * PAIRS; i++) {
+            draws d = draws_from(10, (uint64_t)f, i);
+            draw_pair(&d, (enum family)f, &p);
+            see_from_a(&p);
+            asked = &p;
+            expect_good_value(&p.a, &p.b, &worst);
+        }
+    }
+    printf("%-6s b relative to a: error at most %.2f u * scale\n", VARIANT, worst);
+    assert_true(worst <= VALUE_ERROR);
+}
+
+/* Places on a grid that the world's coordinates still hold far out: the bracket and the normal keep their bits there,
+ * with a's pose and without. Points of contact are as good as the frame's coordinates. */
+static void moved_without_rounding(void **state)
+{
+    static pair p, q;
+    const double grid = VARIANT_FLOAT ? 4 : 1024, far = VARIANT_FLOAT ? 262144 : 1099511627776.0;
+    (void)state;
+    for (int f = 0; f < FAMILIES; f++) {
+        if (!is_plain((enum family)f)) {
+            continue;
+        }
+        for (uint64_t i = 0; i < PAIRS; i++) {
+            draws d = draws_from(11, (uint64_t)f, i);
+            draw_pair(&d, (enum family)f, &p);
+            for (int j = 0; j < DIM; j++) {
+                p.a.pose.p[j] = 0;
+                p.b.pose.p[j] = (real)(rint((double)p.b.pose.p[j] * grid) / grid + 0); /* -0 is another tie */
+                if (fabs((double)p.b.pose.p[j]) > far) {
+                    p.b.pose.p[j] = 1;
+                }
+            }
+            q = p;
+            bind_pair(&p);
+            bind_pair(&q);
+            for (int j = 0; j < DIM; j++) {
+                double by = rint(between(&d, -far, far));
+                q.a.pose.p[j] = (real)by;
+                q.b.pose.p[j] = (real)(by + (double)p.b.pose.p[j]);
+            }
+            for (int n = 0; n < 4; n++) {
+                V(options) o = default_options();
+                V(result) x, y;
+                o.tight = (uint32_t)(n / 2);
+                memset(&x, 0, sizeof x);
+                memset(&y, 0, sizeof y);
+                assert_true(queries[n % 2](&p.a.shape, &p.b.shape, &o, &x) >= 0);
+                assert_true(queries[n % 2](&q.a.shape, &q.b.shape, &o, &y) >= 0);
+                memcpy(y.point_a, x.point_a, sizeof x.point_a);
+                memcpy(y.point_b, x.point_b, sizeof x.point_b);
+                assert_int_equal(first_difference(&x, &y, 0), -1);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(another_unit),        cmocka_unit_test(another_unit_by_the_map),
+        cmocka_unit_test(subnormal_numbers),   cmocka_unit_test(numbers_near_overflow),
+        cmocka_unit_test(far_from_the_origin), cmocka_unit_test(far_vertices),
+        cmocka_unit_test(relative_to_a),       cmocka_unit_test(moved_without_rounding),
+    };
+    return cmocka_run_group_tests_name("magnitudes of " VARIANT, tests, NULL, NULL);
+}
