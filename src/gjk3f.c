@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One whole variant: compile this single file and you have it. */
+/* One whole variant: compile this single file, and gjk3.c or with -DGJK_ALONE (src/core/widen.h), and you have it. */
 #include "../include/gjk/gjk3f.h"
 
 #define DIM 3

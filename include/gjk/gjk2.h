@@ -65,15 +65,15 @@ typedef struct gjk2_cache {
  *     o.size = sizeof o;
  * All numbers are finite and not negative. */
 typedef struct gjk2_options {
-    uint32_t size;        /* sizeof(gjk2_options) in your build; never 0 */
-    uint32_t max_steps;   /* 0: 256. One step is one support call on each shape */
-    double abs_tol;       /* stop at upper - lower <= abs_tol + rel_tol * upper; */
-    double rel_tol;       /*   both 0: as tight as rounding allows */
-    double cutoff;        /* > 0: stop once lower is above it; value may then be as far off as upper */
-    double slack;         /* how far a support may fall short of the farthest point, in its set's own coordinates */
-    gjk2_cache *cache;    /* NULL: start cold */
-    const void *reserved; /* NULL */
-    uint32_t tight;       /* 1: points, box, segment, triangle, origin: to the last bit, by exact arithmetic; else 0 */
+    uint32_t size;          /* sizeof(gjk2_options) in your build; never 0 */
+    uint32_t max_steps;     /* 0: 256. One step is one support call on each shape */
+    double abs_tol;         /* stop at upper - lower <= abs_tol + rel_tol * upper; */
+    double rel_tol;         /*   both 0: as tight as rounding allows */
+    double cutoff;          /* > 0: stop once lower is above it; value may then be as far off as upper */
+    double slack;           /* how far a support may fall short of the farthest point, in its set's own coordinates */
+    gjk2_cache *cache;      /* NULL: start cold */
+    const void *reserved;   /* NULL */
+    uint32_t tight;         /* 1: the distance of points, box, segment and origin to the last place, see below */
     uint32_t reserved_bits; /* 0 */
 } gjk2_options;
 
@@ -90,14 +90,21 @@ typedef struct gjk2_result {
     int32_t reserved;
 } gjk2_result;
 
-/* How far apart? 0 where the shapes meet. */
+/* How far apart? 0 where the shapes meet.
+ *
+ * With options.tight, of sets whose corners are known (points, box, segment, origin, by the address of these
+ * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
+ * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
+ * of 1280 bits and takes up to 40 KB of stack, in float 20; a pair that spans more keeps the usual bracket. A library
+ * built with GJK_NO_EXACT does without. */
 GJK_API int gjk2_distance(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
  * the depth of the overlap, and is only as tight as the proof needs:
- *   lower > 0   apart             value = lower
- *   upper < 0   overlapping       value = upper
- *   else        not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
+ *   lower > 0    apart             value = lower
+ *   upper < 0    overlapping       value = upper
+ *   upper == 0   they meet: proven of points, box, segment and origin, however slightly
+ *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
  * abs_tol, rel_tol and cutoff play no part. */
 GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
 

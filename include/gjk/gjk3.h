@@ -73,7 +73,7 @@ typedef struct gjk3_options {
     double slack;         /* how far a support may fall short of the farthest point, in its set's own coordinates */
     gjk3_cache *cache;    /* NULL: start cold */
     const void *reserved; /* NULL */
-    uint32_t tight;       /* 1: points, box, segment, triangle, origin: to the last bit, by exact arithmetic; else 0 */
+    uint32_t tight; /* 1: the distance of points, box, segment, triangle and origin to the last place, see below */
     uint32_t reserved_bits; /* 0 */
 } gjk3_options;
 
@@ -90,14 +90,21 @@ typedef struct gjk3_result {
     int32_t reserved;
 } gjk3_result;
 
-/* How far apart? 0 where the shapes meet. */
+/* How far apart? 0 where the shapes meet.
+ *
+ * With options.tight, of sets whose corners are known (points, box, segment, triangle, origin, by the address of these
+ * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
+ * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
+ * of 1280 bits and takes up to 40 KB of stack, in float 20; a pair that spans more keeps the usual bracket. A library
+ * built with GJK_NO_EXACT does without. */
 GJK_API int gjk3_distance(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
  * the depth of the overlap, and is only as tight as the proof needs:
- *   lower > 0   apart             value = lower
- *   upper < 0   overlapping       value = upper
- *   else        not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
+ *   lower > 0    apart             value = lower
+ *   upper < 0    overlapping       value = upper
+ *   upper == 0   they meet: proven of points, box, segment, triangle and origin, however slightly
+ *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
  * abs_tol, rel_tol and cutoff play no part. */
 GJK_API int gjk3_intersect(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
 

@@ -123,7 +123,7 @@ static void bracket(result *r, const difference *d, real lower, real upper, real
     if (d->wild && size(far) < REAL_MIN) r->upper += 2 * TINY;
 }
 
-/* The body's point in the caller's frame. */
+/* The body's point in the caller's frame; at its edge where that ends before the body does. */
 static vec witness_of(const body *k, const pose *o, const simplex *s, const real weight[], size_t member,
                       const difference *d)
 {
@@ -131,7 +131,9 @@ static vec witness_of(const body *k, const pose *o, const simplex *s, const real
     if (!k->posed) return mul(x, d->unscale);
     vec p = load(o->p), from = mul(p, d->scale);
     x = map(k->m, x);
-    return bounded(peak(from)) ? mul(add(x, from), d->unscale) : add(mul(x, d->unscale), p);
+    x = bounded(peak(from)) ? mul(add(x, from), d->unscale) : add(mul(x, d->unscale), p);
+    EACH(x.c[i] = larger(smaller(x.c[i], REAL_MAX), -REAL_MAX));
+    return x;
 }
 
 /* The witnesses, from the cores' to the shapes': each moves toward the other by its radius, or, where the radii reach
@@ -218,7 +220,7 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     if (end == FAULT || (still && !(g->exact && !g->sign_only) && !tell(q, g, &upper, &end))) return FAULT;
     if (!(q->lower <= upper)) return FAULT;
     answer(q, a, b, g, upper, weight, r);
-    if (still && g->exact && unanswered(q, r, o, g, upper)) {
+    if (EXACT && still && g->exact && unanswered(q, r, o, g, upper)) {
         enum end closer = tighten(q, a, b, g, r, weight);
         if (closer != FAULT) end = closer;
     } else if (still && !g->exact && r->upper > 0 && (g->sign_only ? r->lower <= 0 : wanting(r, o))) {
@@ -251,7 +253,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
               .radius = radius,
               .abs_tol = o.abs_tol,
               .rel_tol = o.rel_tol,
-              .exact = has_corners(a) && has_corners(b),
+              .exact = EXACT && has_corners(a) && has_corners(b),
               .max_steps = (int)o.max_steps};
     if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
@@ -281,7 +283,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .abs_tol = -1, /* never */
               .early = radius > 0,
               .sign_only = 1,
-              .exact = has_corners(a) && has_corners(b),
+              .exact = EXACT && has_corners(a) && has_corners(b),
               .max_steps = (int)o.max_steps};
 
     enum end end = solve(&q, a, b, &o, &g, &r);

@@ -212,7 +212,7 @@ static void project(search *q, int whole)
     q->vv = dot(q->v, q->v);
 }
 
-/* By how much a corner lies lower along v than the simplex, by the way from there, which is not rounded like the
+/* By how much a corner lies lower along v than the one that v is, by the way from there, which is not rounded like the
  * corners themselves: of points that lie close together it may be all there is to see. */
 static real fine_gap(const search *q, const vertex *p)
 {
@@ -238,7 +238,7 @@ static inline enum end consider(search *q, const goal *g)
         for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), last);
         if (q->repeated) return STILL;
         if (!(gap > noise)) {
-            q->stuck = fine_gap(q, last) > noise;
+            q->stuck = q->s.n == 1 && fine_gap(q, last) > noise;
             return STILL;
         }
     }

@@ -73,25 +73,50 @@ GJK_API real pub(points_reach)(const points *p)
     return padded(root(sum) / level);
 }
 
-/* Farthest of the points, the first among equals. Heights are those above the first point: so points that lie close
- * together far from their origin are told apart. The sum of height * 0 is 0 only if every height, and with it every
- * point, is finite. */
+/* A point that is higher than the best one for certain, if there is any among those of almost its height: of points
+ * that lie close together far from their origin, their differences tell. */
+static size_t settle_tie(const real *v, size_t n, size_t step, vec d, size_t best, real almost)
+{
+    vec top = load(v + best * step);
+    real highest = 0;
+    for (size_t i = 0; i < n; i++) {
+        vec x = load(v + i * step), e = sub(x, top);
+        real rise = dot(e, d);
+        if (!(dot(x, d) >= almost) || !(rise > highest) || !(rise > 4 * UNIT * dot_size(e, d))) continue;
+        highest = rise;
+        best = i;
+    }
+    return best;
+}
+
+/* Farthest of n points, the first among equals; n if one is not finite. The sum of height * 0 is 0 only if every
+ * height, and with it every point, is. The rounding of two heights, 3 each, is within the licence of 8. */
+static inline size_t farthest_among(const real *v, size_t n, size_t step, real reach, vec d)
+{
+    real highest = dot(load(v), d), second = -REAL_MAX, sum = highest * 0;
+    size_t best = 0;
+    for (size_t i = 1; i < n; i++) {
+        real height = dot(load(v + i * step), d);
+        sum += height * 0;
+        if (height > highest) {
+            second = highest;
+            highest = height;
+            best = i;
+        } else {
+            second = larger(height, second);
+        }
+    }
+    if (!(sum == 0)) return n;
+    real almost = highest - 8 * UNIT * reach * spread(d);
+    return second >= almost ? settle_tie(v, n, step, d, best, almost) : best;
+}
+
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
 {
     const points *p = data;
     if (!p || !cloud(p)) return refuse(out);
-    vec d = load(dir), first = load(p->v);
-    size_t step = stride_of(p), best = 0;
-    real highest = 0, sum = spread(first) * 0;
-    for (size_t i = 1; i < p->count; i++) {
-        real height = dot(sub(load(p->v + i * step), first), d);
-        sum += height * 0;
-        if (height > highest) {
-            highest = height;
-            best = i;
-        }
-    }
-    if (!(sum == 0)) return refuse(out);
+    size_t step = stride_of(p), best = farthest_among(p->v, p->count, step, p->reach, load(dir));
+    if (best == p->count) return refuse(out);
     store(out, load(p->v + best * step));
     return p->reach;
 }
@@ -104,21 +129,13 @@ GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DI
     return at_most(load(b->half));
 }
 
-/* Among n corners, by their heights above the first. */
-static real farthest_of(const real (*v)[DIM], int n, const real dir[DIM], real out[DIM])
+/* Among n corners. */
+static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])
 {
-    vec first = load(v[0]);
-    real reach = 0, highest = 0;
-    int best = 0;
-    for (int i = 0; i < n; i++) {
-        vec x = load(v[i]);
-        real height = dot(sub(x, first), load(dir));
-        if (!(spread(x) <= REAL_MAX)) return refuse(out);
-        reach = larger(at_most(x), reach);
-        if (!(height > highest)) continue;
-        highest = height;
-        best = i;
-    }
+    real reach = 0;
+    for (size_t i = 0; i < n; i++) reach = larger(at_most(load(v[i])), reach);
+    size_t best = farthest_among(v[0], n, DIM, smaller(reach, REAL_MAX), load(dir));
+    if (best == n || !(reach <= REAL_MAX)) return refuse(out);
     store(out, load(v[best]));
     return reach;
 }

@@ -164,8 +164,8 @@ static real room(const simplex *s)
         vec n = cross(a, b), f = sub(point(s, (i + 3) % 4), p);
         real inside = -dot(n, p), fourth = dot(n, f), l = length(n);
         if (fourth < 0) inside = -inside;
-        /* a, b, f carry one rounding each, n three more of a's and b's lengths, the products three */
-        real doubt = 12 * UNIT * length(a) * length(b) * (length(p) + length(f));
+        /* docs/bounds.md: 9 for the products, and 6 for n's length where n is small beside a and b */
+        real doubt = 16 * UNIT * length(a) * length(b) * (length(p) + length(f));
         if (!(size(fourth) > doubt)) return 0;
         least = smaller((inside - doubt) / l * (1 - 8 * UNIT), least);
     }

@@ -10,6 +10,13 @@
 #include "dyadic.h"
 #include "shapes.h"
 
+/* GJK_NO_EXACT leaves it out, and with it the stack that it takes. */
+#ifdef GJK_NO_EXACT
+#define EXACT 0
+#else
+#define EXACT 1
+#endif
+
 typedef struct dyadics {
     dyadic c[DIM];
 } dyadics;
@@ -381,14 +388,14 @@ static wide wide_sum(wide a, wide b)
 
 static wide wide_quotient(wide a, wide b) { return (wide){quotient_of(a.t, b.t), a.exponent - b.exponent}; }
 
-/* The cores' distance, good to 16 UNIT^2 of itself. */
+/* The cores' distance, good to 32 UNIT^2 of itself. */
 static wide core_distance(const finish *f)
 {
     wide over = wide_of(&f->over), under = wide_of(&f->under);
     return f->squared ? wide_root(wide_quotient(over, under)) : wide_quotient(over, wide_root(under));
 }
 
-/* The distance less the radii, d - r, good to 64 UNIT^2 of itself. As (d^2 - r^2) / (d + r), where the difference is
+/* The distance less the radii, d - r, good to 128 UNIT^2 of itself. As (d^2 - r^2) / (d + r), where the difference is
  * without rounding; LOST where that has too many digits. */
 static wide separation(const finish *f, real radius_a, real radius_b, int *sign)
 {
@@ -411,7 +418,7 @@ static int enclose(const finish *f, real radius_a, real radius_b, real ends[3])
 {
     int sign;
     wide s = separation(f, radius_a, radius_b, &sign);
-    real error = 64 * UNIT * UNIT * s.t.high, low, high;
+    real error = 128 * UNIT * UNIT * s.t.high, low, high;
     if (sign == LOST) return 0;
     low = below(s.t.high, s.t.low - error, s.exponent);
     high = -below(-s.t.high, -s.t.low - error, s.exponent);

@@ -22,7 +22,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 LEFT = shutil.ignore_patterns(".*", "build", "bindings", "docs", "__pycache__")
 SETTINGS = ["CMAKE_BUILD_TYPE=Release", "GJK_BUILD_SHARED=OFF"]
-OF_A_VARIANT = re.compile(r"\.gjk[23]f?$")  # the other tests are not of the code
+OF_A_VARIANT = re.compile(r"(?!compare\.)\w+\.gjk[23]f?$")  # those of the code alone: not of peers, fuzzers, files
 
 
 @dataclass
@@ -78,7 +78,7 @@ class Tree:
     def shown(self):
         command = ["ctest", "--test-dir", self.build, "--show-only=json-v1"]
         shown = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
-        return {test["name"]: test for test in shown["tests"] if OF_A_VARIANT.search(test["name"])}
+        return {test["name"]: test for test in shown["tests"] if OF_A_VARIANT.match(test["name"])}
 
     def make(self, check=False):
         command = ["cmake", "--build", self.build, "--target", *self.tests]
