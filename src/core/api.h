@@ -161,8 +161,9 @@ static void witness(result *r, const search *q, const real weight[], const shape
  * to be nearer was not. */
 static int unanswered(const search *q, const result *r, const options *o, const goal *g, real upper)
 {
-    real near = g->radius * q->d.scale, margin = 8 * q->d.doubt + 16 * UNIT * near;
+    real near = g->radius * q->d.scale, margin = (real)(g->sign_only ? 8 : 32) * q->d.doubt + 16 * UNIT * near;
     if (r->lower <= 0 && r->upper > 0) return 1;
+    if (g->sign_only && r->lower > 0) return 0;
     if (q->lower <= near + margin && upper >= near - margin) return 1;
     return !g->sign_only && r->upper > 0 && (o->tight || q->stuck || coarse(q, upper));
 }
