@@ -409,6 +409,41 @@ static void short_by_the_slack(void **state)
     expect(&o, answer, answer, NEVER);
 }
 
+/* Off by as much as a support may be, and alone: no doubt of another body or of the offset covers it. */
+static double off_by; /* in roundings of its reach */
+static real bar_at_the_edge(const void *data, const real *dir, real *point)
+{
+    (void)data;
+    memset(point, 0, DIM * sizeof *point);
+    point[0] = dir[0] < 0 ? -1 : 1;
+    point[1] = (real)(0x1p-10 + off_by * U);
+    return (real)1.001;
+}
+
+static void alone_at_the_edge_of_its_licence(void **state)
+{
+    int dummy;
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        V(pose) pose;
+        V(shape) bar, point;
+        V(result) r;
+        memset(&pose, 0, sizeof pose);
+        memset(&bar, 0, sizeof bar);
+        memset(&point, 0, sizeof point);
+        for (int i = 0; i < DIM; i++) {
+            pose.m[DIM * i + i] = 1;
+        }
+        off_by = k & 1 ? -7 : 7;
+        bar.support = bar_at_the_edge;
+        bar.data = &dummy;
+        bar.pose = k & 2 ? &pose : NULL;
+        point.support = V(support_origin);
+        assert_true((k & 4 ? V(distance)(&point, &bar, NULL, &r) : V(distance)(&bar, &point, NULL, &r)) >= 0);
+        assert_true(r.lower <= (real)0x1p-10 && r.upper >= (real)0x1p-10);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -421,6 +456,7 @@ int main(void)
         cmocka_unit_test_setup(warm_start_from_a_speck, fresh),
         cmocka_unit_test_setup(infinite_point, fresh),
         cmocka_unit_test_setup(short_by_the_slack, fresh),
+        cmocka_unit_test(alone_at_the_edge_of_its_licence),
     };
     return cmocka_run_group_tests_name("extreme magnitudes to " VARIANT, tests, NULL, NULL);
 }

@@ -254,7 +254,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
               .radius = radius,
               .abs_tol = o.abs_tol,
               .rel_tol = o.rel_tol,
-              .exact = EXACT && has_corners(a) && has_corners(b),
+              .exact = EXACT && o.slack == 0 && has_corners(a) && has_corners(b),
               .max_steps = (int)o.max_steps};
     if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
@@ -284,7 +284,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .abs_tol = -1, /* never */
               .early = radius > 0,
               .sign_only = 1,
-              .exact = EXACT && has_corners(a) && has_corners(b),
+              .exact = EXACT && o.slack == 0 && has_corners(a) && has_corners(b),
               .max_steps = (int)o.max_steps};
 
     enum end end = solve(&q, a, b, &o, &g, &r);

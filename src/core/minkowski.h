@@ -161,14 +161,18 @@ static int settle(difference *d, real slack)
     fit(&d->b, d->scale, d->wild);
     d->c = mul(d->c, d->scale);
     d->c_low = mul(d->c_low, d->scale);
-    d->doubt = UNIT * d->scale * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
+    a *= d->scale;
+    b *= d->scale;
+    c *= d->scale;
+    d->doubt = UNIT * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
     if (d->wild) { /* products that underflow here, and in the supports where reaches are faint */
         d->doubt += 64 * TINY;
         if (whole < REAL_MIN) d->doubt += 64 * TINY * d->scale;
         if (faint(d->a.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->a.stretch);
         if (faint(d->b.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->b.stretch);
     }
-    d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 8 * UNIT);
+    d->slack = 0; /* and no 0 times infinity */
+    if (slack > 0) d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 8 * UNIT);
     d->slack = smaller(d->slack, REAL_MAX);
     return d->doubt <= REAL_MAX;
 }

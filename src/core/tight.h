@@ -277,6 +277,9 @@ static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
 {
     dyadics g = pulled(s, way);
     dyadic gain = nought();
+    int moved = 0;
+    for (int i = 0; i < DIM; i++) moved |= side(f, &g.c[i]) != 0;
+    if (!moved || f->lost) return gain;
     vec d = rough(&g), from = *x;
     size_t n = count_corners(s);
     real top = -REAL_MAX, far = 0;

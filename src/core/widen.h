@@ -93,14 +93,14 @@ static real rounded_down(double x)
     return (double)r > x ? lower_neighbour(r) : r;
 }
 
-/* As many digits as float can show are asked for, unless all are. */
+/* Half of what was asked for, since the bounds are rounded once more, and no more digits than float can show. */
 static sister(options) sister_options(const options *o, const search *q)
 {
     sister(options) r = {.size = sizeof r, .max_steps = o->max_steps - (uint32_t)q->steps};
-    double digit = (double)UNIT / 4;
-    r.abs_tol = (double)o->abs_tol + (o->tight ? 0 : digit * (double)q->d.unscale);
-    r.rel_tol = (double)o->rel_tol + digit;
+    r.abs_tol = (double)o->abs_tol / 2;
+    r.rel_tol = (double)larger(o->rel_tol / 2, UNIT / 4);
     r.cutoff = (double)o->cutoff;
+    r.slack = (double)o->slack;
     return r;
 }
 
