@@ -4,13 +4,14 @@
 #
 #   fuzz/run.sh [-k] MINUTES [TARGET.VARIANT...]
 #
+# With GJK_FUZZ_SEED set the fuzzers draw from that seed, the same each time.
 # MINUTES is for all of them together, and may be a fraction. Each starts from the inputs in fuzz/corpus and from what
 # earlier runs left in build/fuzz/corpus, and stops at its first finding; with -k it goes on. Findings are kept in
 # build/fuzz/found; with any the exit status is 1.
 set -eu
 cd "$(dirname "$0")/.."
 
-usage() { sed -n 's/^# \{0,1\}//; 4,9p' "$0"; exit 2; }
+usage() { sed -n 's/^# \{0,1\}//; 4,10p' "$0"; exit 2; }
 keep_on=
 if [ "${1-}" = -k ]; then
     keep_on='-fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1'
@@ -47,6 +48,7 @@ for name; do
     # shellcheck disable=SC2086 # no word, or some
     timeout -k 10 $((seconds + 60)) $build/fuzz/fuzz."$name" $keep_on -max_total_time="$seconds" -timeout=10 \
         -rss_limit_mb=2048 -max_len=600 -print_final_stats=1 -artifact_prefix="$found/" \
+        ${GJK_FUZZ_SEED:+-seed="$GJK_FUZZ_SEED"} \
         "$kept" "fuzz/corpus/${name%.*}" >"$build/log/$name" 2>&1 &
     running="$running $!"
     if [ "$(echo "$running" | wc -w)" -ge "$cores" ]; then

@@ -119,7 +119,8 @@ static void check_witnesses(const V(result) * r)
     off = WITNESS_ERROR * (double)scale * U;
     off = fmax(stands_off(&t->a, &now.pair->a, a, off), stands_off(&t->b, &now.pair->b, b, off));
     now.tally->max_witness = fmax(now.tally->max_witness, in_u(off, scale));
-    if (!(in_u(off, scale) <= WITNESS_ERROR)) {
+    /* of an overlap the point of intersect is no better than its bracket */
+    if (!(in_u(off - (r->upper < 0 ? (double)r->upper - (double)r->lower : 0), scale) <= WITNESS_ERROR)) {
         broken("a witness point is outside, in u * span", r, in_u(off, scale));
     }
     off = in_u(quad_length(gap) * t->unit - positive((quad)r->upper), scale);

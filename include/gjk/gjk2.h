@@ -82,7 +82,7 @@ typedef struct gjk2_result {
     double value;        /* the answer, inside the bracket */
     double lower, upper; /* proven */
     double point_a[2];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
-    double point_b[2];   /*   meeting, one and the same point of both */
+    double point_b[2];   /*   meeting, one and the same point of both, by intersect only to within its bracket */
     double normal[2];    /* unit, from a to b, always: the direction that realises lower */
     int32_t status;
     int32_t steps;    /* of the search that answered */

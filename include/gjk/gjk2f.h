@@ -83,7 +83,7 @@ typedef struct gjk2f_result {
     float value;        /* the answer, inside the bracket */
     float lower, upper; /* proven */
     float point_a[2];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
-    float point_b[2];   /*   meeting, one and the same point of both */
+    float point_b[2];   /*   meeting, one and the same point of both, by intersect only to within its bracket */
     float normal[2];    /* unit, from a to b, always: the direction that realises lower */
     int32_t status;
     int32_t steps;    /* of the search that answered */

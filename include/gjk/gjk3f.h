@@ -83,7 +83,7 @@ typedef struct gjk3f_result {
     float value;        /* the answer, inside the bracket */
     float lower, upper; /* proven */
     float point_a[3];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
-    float point_b[3];   /*   meeting, one and the same point of both */
+    float point_b[3];   /*   meeting, one and the same point of both, by intersect only to within its bracket */
     float normal[3];    /* unit, from a to b, always: the direction that realises lower */
     int32_t status;
     int32_t steps;    /* of the search that answered */

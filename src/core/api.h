@@ -202,7 +202,8 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
     witness(r, q, weight, a, b);
     r->value = 0;
     if (g->sign_only) return;
-    real low = q->lower + q->d.doubt, high = upper - q->d.doubt;
+    real low = q->lower + q->d.doubt - 2 * UNIT * (size(q->lower) + q->d.doubt);
+    real high = upper - q->d.doubt + 2 * UNIT * (size(upper) + q->d.doubt);
     twin l = refine(q, weight);
     if (l.high > high) l = (twin){high, 0};
     if (l.high < low) l = (twin){low, 0};
