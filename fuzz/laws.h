@@ -12,8 +12,8 @@
 #define WITNESS_ERROR 16
 #define WIDTH 100
 #define SHALLOW 300 /* of polytopes: a deeper overlap is seen */
-/* Of round bodies: 440 doubt, or needles thinner than 1e-7 of their length around a single point: docs/design.md. */
-#define SHALLOW_ROUND fmax(8800, 1e-7 / U)
+/* Of round bodies: 440 doubt, or needles thinner than 1e-5 of their length around a single point: docs/design.md. */
+#define SHALLOW_ROUND fmax(8800, 1e-5 / U)
 #define EXACT_DIGITS 1200  /* more than that between the ends of the numbers, and tight is no more than usual */
 #define SLOP ((quad)1e-28) /* of the truth itself: it is sought for a pair of size 1 */
 
