@@ -9,6 +9,7 @@
 # earlier runs left in build/fuzz/corpus, and stops at its first finding; with -k it goes on. Findings are kept in
 # build/fuzz/found; with any the exit status is 1.
 set -eu
+export LC_ALL=C # logs hold bytes of inputs
 cd "$(dirname "$0")/.."
 
 usage() { sed -n 's/^# \{0,1\}//; 4,10p' "$0"; exit 2; }
