@@ -283,6 +283,13 @@ static inline double stands_off(const question *q, int k, const real *point)
     return (double)off.lower;
 }
 
+/* How wide rounding may make a bracket. The reach of a cloud that does not know its own is found along the axes: up to
+ * sqrt(DIM) times too large, and the rounding counted with it. */
+static inline double width_of(const question *q)
+{
+    return q->s.silent[0] || q->s.silent[1] ? WIDTH * sqrt(DIM) : WIDTH;
+}
+
 static inline void check_witnesses(const question *q, const V(result) * r)
 {
     quad scale, n = 0, way = 0;
@@ -305,7 +312,7 @@ static inline void check_witnesses(const question *q, const V(result) * r)
         }
     }
     off = in_u(q, quad_sqrt(way) - positive(at_one(q, r->upper)), scale);
-    if (!(off <= WITNESS_ERROR && off >= -WIDTH)) {
+    if (!(off <= WITNESS_ERROR && off >= -width_of(q))) {
         broken(q, "the points do not realise upper, in u * span", r, off);
     }
     off = (double)((quad_sqrt(n) - 1) / (quad)U);
@@ -386,10 +393,10 @@ static inline void check_distance_status(const question *q, const V(result) * r)
     if (r->status == GJK_DECIDED && !(o->cutoff > 0 && r->lower > o->cutoff)) {
         broken(q, "decided, but not above the cutoff", r, (double)r->lower);
     }
-    if (q->tame && o->slack == 0 && r->status == GJK_OK && !(width <= asked || wide <= WIDTH)) {
+    if (q->tame && o->slack == 0 && r->status == GJK_OK && !(width <= asked || wide <= width_of(q))) {
         broken(q, "ok, but wider than asked, in u * span", r, wide);
     }
-    if (q->tame && o->slack == 0 && r->status == GJK_FLOOR && !(wide <= WIDTH)) {
+    if (q->tame && o->slack == 0 && r->status == GJK_FLOOR && !(wide <= width_of(q))) {
         broken(q, "floor, but wider than rounding, in u * span", r, wide);
     }
     if (r->status == GJK_FLOOR && o->abs_tol > 0 && width <= (double)o->abs_tol * (1 - 8 * U)) {
@@ -539,7 +546,7 @@ static inline int ask_intersect(question *q, int swap, V(result) * r)
     if ((status == GJK_FLOOR || status == GJK_LIMIT) && (r->lower > 0 || r->upper < 0)) {
         broken(q, "undecided, but a sign is proven", r, 0);
     }
-    if (status == GJK_FLOOR && q->tame && q->options.slack == 0 && !(off <= (q->t.lower > 0 ? WIDTH : shallow))) {
+    if (status == GJK_FLOOR && q->tame && q->options.slack == 0 && !(off <= (q->t.lower > 0 ? width_of(q) : shallow))) {
         broken(q, "called touching, but is further off, in u * span", r, off);
     }
     if (!swap) {
