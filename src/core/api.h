@@ -171,11 +171,11 @@ static int unanswered(const search *q, const result *r, const options *o, const 
 /* The bracket of the distance is wider than asked. */
 static int wanting(const result *r, const options *o)
 {
-    return r->upper - larger(r->lower, 0) > o->abs_tol + o->rel_tol * r->upper;
+    return r->upper > 0 && r->upper - larger(r->lower, 0) > o->abs_tol + o->rel_tol * r->upper;
 }
 
-/* Finishes the search without rounding, and replaces what the result says of the distance. Anything but STILL: that
- * can't be done, and nothing is changed. */
+/* Finishes the search without rounding, and replaces what the result says of the distance. OPEN, FAULT: that can't be
+ * done, and nothing is changed. */
 static APART enum end tighten(search *q, const shape *a, const shape *b, const goal *g, result *r, real weight[])
 {
     finish f;
@@ -211,27 +211,32 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
     r->value = (value.high + (value.low + l.low)) * q->d.unscale;
 }
 
-/* What both questions share: the cores' search, its bracket with the radii taken off, and a finer answer where rounding
- * stood in the way. FAULT: a support's answer was none, or the bounds cross. */
+/* The sharper answer where rounding stood in the way of the search's own, if there is a way to one: exact for known
+ * corners, in double for float's smooth shapes. How it ended; FAULT: nothing is changed. */
+static enum end sharpened(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
+                          real weight[], result *r)
+{
+    if (g->exact) return EXACT && unanswered(q, r, o, g, upper) ? tighten(q, a, b, g, r, weight) : FAULT;
+    int open = g->sign_only ? r->lower <= 0 && r->upper > 0 : wanting(r, o);
+    return open ? ask_sister(q, a, b, o, g, r) : FAULT;
+}
+
+/* What both questions share: the cores' search, its bracket with the radii taken off, and the sharper answer. FAULT: a
+ * support's answer was none, or the bounds cross. */
 static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     real upper, weight[DIM + 1];
     enum end end = run(q, a, b, o, g, &upper, weight);
-    int still = end == STILL || end == INSIDE, finer = GJK_BAD_SUPPORT;
+    int still = end == STILL || end == INSIDE;
     /* the distance of known corners needs no probing, the exact finish tells more; overlap does */
-    if (end == FAULT || (still && !(g->exact && !g->sign_only) && !tell(q, g, &upper, &end))) return FAULT;
-    if (!(q->lower <= upper)) return FAULT;
+    int probed = still && (g->sign_only || !g->exact);
+    if (end == FAULT || (probed && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     answer(q, a, b, g, upper, weight, r);
-    if (EXACT && still && g->exact && unanswered(q, r, o, g, upper)) {
-        enum end closer = tighten(q, a, b, g, r, weight);
-        if (closer != FAULT) end = closer;
-    } else if (still && !g->exact && r->upper > 0 && (g->sign_only ? r->lower <= 0 : wanting(r, o))) {
-        finer = ask_sister(q, a, b, o, g, r);
-    }
+    enum end sharp = still ? sharpened(q, a, b, o, g, upper, weight, r) : FAULT;
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
-    return finer == GJK_LIMIT ? OPEN : end;
+    return sharp == FAULT ? end : sharp;
 }
 
 static int distance_status(const result *r, const options *o, enum end end, real rounding)

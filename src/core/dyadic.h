@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Dyadic numbers: whole numbers times a power of two. Sums and products of reals are dyadic, and here they are exact,
- * whatever the exponents, as long as LIMBS hold them. What they do not hold is LOST, and so is all that is made of it.
+ * whatever the exponents, as long as LIMBS hold them. What they do not hold is lost, and so is all that is made of it.
  */
 #ifndef GJK_CORE_DYADIC_H
 #define GJK_CORE_DYADIC_H
@@ -10,17 +10,32 @@
 /* Products of four sums are the largest met, as a rule: room for sums of 1280 bits, in float for any sum of products.
  */
 #define LIMBS (REAL_IS_DOUBLE ? 160 : 80)
-#define LOST 2
 
 typedef struct dyadic {
-    int sign; /* -1, 0, 1, or LOST */
+    int sign; /* -1, 0, 1 */
+    int lost; /* whether this is not the number at all */
     int low;  /* limb[0] counts units of 2^(32 low) */
     int n;    /* limbs, the lowest first; neither the first nor the last of them is 0 */
     uint32_t limb[LIMBS];
 } dyadic;
 
-/* Takes the number with n limbs from low on, zeros at its ends allowed. */
-static void settle_limbs(dyadic *r, int sign, int low, int n, const uint32_t *limb)
+static dyadic nought(int lost)
+{
+    dyadic r;
+    r.sign = r.low = r.n = 0;
+    r.lost = lost;
+    return r;
+}
+
+static dyadic opposite_of(const dyadic *a)
+{
+    dyadic r = *a;
+    r.sign = -r.sign;
+    return r;
+}
+
+/* The number with n limbs from low on, zeros at its ends allowed. */
+static dyadic with_limbs(int sign, int low, int n, const uint32_t *limb)
 {
     while (n > 0 && limb[n - 1] == 0) n--;
     while (n > 0 && *limb == 0) {
@@ -28,22 +43,17 @@ static void settle_limbs(dyadic *r, int sign, int low, int n, const uint32_t *li
         low++;
         n--;
     }
-    r->sign = n > LIMBS ? LOST : n > 0 ? sign : 0;
-    r->low = low;
-    r->n = r->sign == LOST ? 0 : n;
-    for (int i = 0; i < r->n; i++) r->limb[i] = limb[i];
-}
-
-static dyadic nought(void)
-{
-    dyadic r;
-    r.sign = r.low = r.n = 0;
+    dyadic r = nought(n > LIMBS);
+    if (n == 0 || r.lost) return r;
+    r.sign = sign;
+    r.low = low;
+    r.n = n;
+    for (int i = 0; i < n; i++) r.limb[i] = limb[i];
     return r;
 }
 
 static dyadic dyadic_of(real x)
 {
-    dyadic r;
     bits b;
     memcpy(&b, &x, sizeof b);
     int exponent = (int)(b >> MANTISSA & EXPONENT_MAX);
@@ -53,8 +63,7 @@ static dyadic dyadic_of(real x)
     uint64_t above = digits >> (32 - at % 32);
     const uint32_t limb[3] = {(uint32_t)(digits << at % 32 & 0xffffffffu), (uint32_t)(above & 0xffffffffu),
                               (uint32_t)(above >> 32)};
-    settle_limbs(&r, x < 0 ? -1 : 1, at / 32 - 64, 3, limb);
-    return r;
+    return with_limbs(x < 0 ? -1 : 1, at / 32 - 64, 3, limb);
 }
 
 /* Limb i, counted like low. */
@@ -66,20 +75,13 @@ static inline int64_t digit(const dyadic *a, int i)
 /* a + b, or a - b with sign -1. */
 static dyadic plus(const dyadic *a, const dyadic *b, int sign)
 {
-    dyadic r = nought();
     uint32_t limb[LIMBS + 2];
-    if (a->sign == LOST || b->sign == 0) return *a;
-    if (b->sign == LOST || a->sign == 0) {
-        r = *b;
-        r.sign *= b->sign == LOST ? 1 : sign;
-        return r;
-    }
+    if (a->lost || b->lost) return nought(1);
+    if (b->sign == 0) return *a;
+    if (a->sign == 0) return sign < 0 ? opposite_of(b) : *b;
     int low = a->low < b->low ? a->low : b->low;
     int end = a->low + a->n > b->low + b->n ? a->low + a->n : b->low + b->n, n = end - low + 1, turn = 1;
-    if (n > LIMBS + 2) {
-        r.sign = LOST;
-        return r;
-    }
+    if (n > LIMBS + 2) return nought(1);
     for (;;) {
         int64_t carry = 0;
         for (int i = 0; i < n; i++) {
@@ -90,16 +92,13 @@ static dyadic plus(const dyadic *a, const dyadic *b, int sign)
         if (carry == 0) break;
         turn = -1; /* it was negative */
     }
-    settle_limbs(&r, turn, low, n, limb);
-    return r;
+    return with_limbs(turn, low, n, limb);
 }
 
 static dyadic times(const dyadic *a, const dyadic *b)
 {
-    dyadic r = nought();
     uint32_t limb[2 * LIMBS];
-    if (a->sign == LOST || b->sign == LOST) r.sign = LOST;
-    if (r.sign == LOST || a->sign == 0 || b->sign == 0) return r;
+    if (a->lost || b->lost || a->sign == 0 || b->sign == 0) return nought(a->lost || b->lost);
     for (int i = 0; i < a->n + b->n; i++) limb[i] = 0;
     for (int i = 0; i < a->n; i++) {
         uint64_t carry = 0;
@@ -110,8 +109,7 @@ static dyadic times(const dyadic *a, const dyadic *b)
         }
         limb[i + b->n] = (uint32_t)carry;
     }
-    settle_limbs(&r, a->sign * b->sign, a->low + b->low, a->n + b->n, limb);
-    return r;
+    return with_limbs(a->sign * b->sign, a->low + b->low, a->n + b->n, limb);
 }
 
 /* The number's size, to a relative UNIT^2 or so, as a twin times 2^*exponent; the twin is in [1/2, 1), or 0. */

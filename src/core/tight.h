@@ -36,9 +36,8 @@ typedef struct finish {
 /* All decisions pass here. */
 static int side(finish *f, const dyadic *x)
 {
-    if (x->sign != LOST) return x->sign;
-    f->lost = 1;
-    return 0;
+    f->lost |= x->lost;
+    return x->sign;
 }
 
 static dyadics difference_of(const dyadics *a, const dyadics *b)
@@ -58,20 +57,21 @@ static dyadic inner(const dyadics *a, const dyadics *b)
     return r;
 }
 
+static dyadics no_way(void)
+{
+    dyadics r;
+    for (int i = 0; i < DIM; i++) r.c[i] = nought(0);
+    return r;
+}
+
 static void reverse(dyadics *a)
 {
-    for (int i = 0; i < DIM; i++)
-        if (a->c[i].sign != LOST) a->c[i].sign = -a->c[i].sign;
+    for (int i = 0; i < DIM; i++) a->c[i].sign = -a->c[i].sign;
 }
 
 #if DIM == 2
 /* a turned by a quarter, which is the normal of an edge. */
-static dyadics quarter(const dyadics *a)
-{
-    dyadics r = {{a->c[1], a->c[0]}};
-    if (r.c[0].sign != LOST) r.c[0].sign = -r.c[0].sign;
-    return r;
-}
+static dyadics quarter(const dyadics *a) { return (dyadics){{opposite_of(&a->c[1]), a->c[0]}}; }
 #else
 /* p q - r s */
 static dyadic minor(const dyadic *p, const dyadic *q, const dyadic *r, const dyadic *s)
@@ -100,8 +100,8 @@ static void along_normal(finish *f, const dyadics *n, const dyadics *p)
     f->way = *n;
     int turn = side(f, &f->over);
     if (turn < 0) reverse(&f->way);
-    if (turn == 0) f->way = (dyadics){{nought()}};
-    if (f->over.sign != LOST) f->over.sign = turn == 0 ? 0 : 1;
+    if (turn == 0) f->way = no_way();
+    f->over.sign = turn != 0;
 }
 
 /* ---- the nearest point ---- */
@@ -165,9 +165,9 @@ static int inside(finish *f)
         if (outward == 0 || side(f, &whole) != -outward) return 0;
         f->weight[i].sign = 1;
     }
-    f->over = nought();
+    f->over = nought(0);
     f->under = dyadic_of(1);
-    f->way = (dyadics){{nought()}};
+    f->way = no_way();
     return 1;
 }
 
@@ -246,7 +246,7 @@ static dyadics pulled(const shape *s, const dyadics *way)
 {
     dyadics r = *way;
     for (int j = 0; j < DIM && s->pose; j++) {
-        r.c[j] = nought();
+        r.c[j] = nought(0);
         for (int i = 0; i < DIM; i++) {
             dyadic t = dyadic_of(s->pose->m[DIM * i + j]);
             t = times(&t, &way->c[i]);
@@ -276,7 +276,7 @@ static vec rough(const dyadics *d)
 static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
 {
     dyadics g = pulled(s, way);
-    dyadic gain = nought();
+    dyadic gain = nought(0);
     int moved = 0;
     for (int i = 0; i < DIM; i++) moved |= side(f, &g.c[i]) != 0;
     if (!moved || f->lost) return gain;
@@ -292,7 +292,7 @@ static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
     for (size_t i = 0; i < n; i++) {
         vec p = nth_corner(s, i);
         if (dot(p, d) < top || same(p, *x)) continue;
-        dyadic rise = nought();
+        dyadic rise = nought(0);
         for (int j = 0; j < DIM; j++) {
             dyadic to = dyadic_of(p.c[j]), at = dyadic_of(from.c[j]), e = plus(&to, &at, -1);
             e = times(&e, &g.c[j]);
@@ -399,30 +399,30 @@ static wide core_distance(const finish *f)
 }
 
 /* The distance less the radii, d - r, good to 128 UNIT^2 of itself. As (d^2 - r^2) / (d + r), where the difference is
- * without rounding; LOST where that has too many digits. */
-static wide separation(const finish *f, real radius_a, real radius_b, int *sign)
+ * without rounding. */
+static wide separation(finish *f, real radius_a, real radius_b, int *sign)
 {
     dyadic a = dyadic_of(radius_a), b = dyadic_of(radius_b), r = plus(&a, &b, 1);
     wide d = core_distance(f);
-    *sign = f->over.sign;
-    if (r.sign == 0) return d;
+    *sign = side(f, &f->over);
+    if (side(f, &r) == 0) return d;
     dyadic over = f->squared ? f->over : times(&f->over, &f->over), rr = times(&r, &r);
     rr = times(&rr, &f->under);
     dyadic squares = plus(&over, &rr, -1);
-    *sign = squares.sign;
+    *sign = side(f, &squares);
     wide under = wide_of(&f->under), sum = wide_sum(d, wide_of(&r));
     under = (wide){product_of_twins(under.t, sum.t), under.exponent + sum.exponent};
     return wide_quotient(wide_of(&squares), under);
 }
 
 /* The bracket of the distance less the radii, each end the nearest number its way, or the one next to that; the value
- * between. */
-static int enclose(const finish *f, real radius_a, real radius_b, real ends[3])
+ * between. 0: numbers are lost, or too large to be told. */
+static int enclose(finish *f, real radius_a, real radius_b, real ends[3])
 {
     int sign;
     wide s = separation(f, radius_a, radius_b, &sign);
     real error = 128 * UNIT * UNIT * s.t.high, low, high;
-    if (sign == LOST) return 0;
+    if (f->lost) return 0;
     low = below(s.t.high, s.t.low - error, s.exponent);
     high = -below(-s.t.high, -s.t.low - error, s.exponent);
     ends[0] = sign < 0 ? -high : low;

@@ -10,10 +10,10 @@
 
 #if REAL_IS_DOUBLE || defined(GJK_ALONE)
 
-static int ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+static enum end ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     (void)q, (void)a, (void)b, (void)o, (void)g, (void)r;
-    return GJK_BAD_SUPPORT;
+    return FAULT;
 }
 
 #else
@@ -104,17 +104,17 @@ static sister(options) sister_options(const options *o, const search *q)
     return r;
 }
 
-/* Puts the question to the sister. From 0 up, her status: r's bracket is narrowed by hers, her value and points stand
- * in it, her steps and calls are counted. */
-static APART int ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+/* Puts the question to the sister: r's bracket is narrowed by hers, her value and points stand in it, her steps and
+ * calls are counted. FAULT: she can't be asked or has no answer, and nothing is changed. */
+static APART enum end ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     widened wide_a, wide_b;
     sister(result) hers;
     sister(options) asked = sister_options(o, q);
-    if (q->steps >= g->max_steps || !widen(&wide_a, a) || !widen(&wide_b, b)) return GJK_BAD_SUPPORT;
+    if (q->steps >= g->max_steps || !widen(&wide_a, a) || !widen(&wide_b, b)) return FAULT;
     int status = g->sign_only ? sister(intersect)(&wide_a.shape, &wide_b.shape, &asked, &hers)
                               : sister(distance)(&wide_a.shape, &wide_b.shape, &asked, &hers);
-    if (status < 0) return status;
+    if (status < 0) return FAULT;
     real lower = rounded_down(hers.lower), upper = -rounded_down(-hers.upper);
     r->value = (real)hers.value;
     if (lower > r->lower) {
@@ -128,7 +128,7 @@ static APART int ask_sister(search *q, const shape *a, const shape *b, const opt
     }
     q->steps += hers.steps;
     q->d.calls += hers.supports;
-    return status;
+    return status == GJK_LIMIT ? OPEN : STILL;
 }
 
 #endif
