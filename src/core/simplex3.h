@@ -5,7 +5,9 @@
 
 #include "corners.h"
 
-/* A triangle whose angle has a squared sine below this is projected onto side by side: its normal is mostly noise. */
+/* A triangle whose angle has a squared sine below this is projected onto side by side. Its normal is off by UNIT over
+ * the sine, and tilts v by as much along the whole triangle; side by side v is square to the longer side to a UNIT, but
+ * off by a UNIT of the corners, however near it is. Where one becomes worse than the other: docs/bounds.md. */
 #define NARROW ((real)1e-5)
 
 static inline vec cross(vec a, vec b)
