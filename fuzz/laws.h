@@ -108,7 +108,7 @@ static inline int larger_of(int x, int y) { return x > y ? x : y; }
 static inline int set_exponent(const body *b)
 {
     int e = NOTHING;
-    if (b->kind == SUM || b->kind == HULL) {
+    if (is_couple(b)) {
         for (int k = 0; k < 2; k++) {
             const body *p = b->part[k];
             e = larger_of(e, larger_of(set_exponent(p) + highest(p->pose.m, DIM * DIM), highest(p->pose.p, DIM)));
@@ -144,7 +144,7 @@ static inline void shrink(body *b, int by)
         memset(b->pose.m, 0, sizeof b->pose.m);
         set = 0;
     }
-    if (b->kind != SUM && b->kind != HULL) { /* whose sets are their parts */
+    if (!is_couple(b)) { /* whose sets are their parts */
         multiply(b->v[0], MAX_POINTS * DIM, -set);
         multiply(b->half, DIM, -set);
         multiply(&b->radius, 1, -set);
@@ -160,7 +160,7 @@ static inline void shrink_whole(body *b, body *part, int by)
 {
     int set = set_exponent(b);
     shrink(b, by);
-    for (int i = 0; i < 2 && (b->kind == SUM || b->kind == HULL); i++) {
+    for (int i = 0; i < 2 && is_couple(b); i++) {
         shrink(&part[i], set <= NOTHING / 2 ? 0 : set);
     }
 }
@@ -204,7 +204,7 @@ static inline void read_question(question *q, input *in, const uint8_t *bytes, s
     for (int k = 0; k < 2; k++) {
         body *w = whole_of(&q->one, k), *part = &q->one.p.part[2 * k];
         judge_sizes(q, w, whole);
-        for (int i = 0; i < 2 && (w->kind == SUM || w->kind == HULL); i++) {
+        for (int i = 0; i < 2 && is_couple(w); i++) {
             judge_sizes(q, &part[i], whole);
         }
     }
@@ -453,8 +453,6 @@ static inline int digits_between(const question *q)
     return q->exponent - low;
 }
 
-static inline int is_exact_kind(const body *b) { return b->kind <= TRIANGLE || b->kind == ORIGIN; }
-
 /* Whether bodies that seem to touch do so: with so few digits no distance but 0 is as small as SLOP. */
 static inline int touches(const question *q)
 {
@@ -468,7 +466,7 @@ static inline void check_tight(const question *q, const V(result) * r)
     quad unit = shifted((quad)1, exponent_of((double)r->upper) - (VARIANT_FLOAT ? 24 : 53) - q->exponent);
     quad least = shifted((quad)REAL_MIN * (quad)REAL_EPSILON, -q->exponent);
     unit = unit > least ? unit : least;
-    if (!is_exact_kind(&q->s.p.a) || !is_exact_kind(&q->s.p.b) || !q->t.certified || digits_between(q) > EXACT_DIGITS) {
+    if (!has_corners(&q->s.p.a) || !has_corners(&q->s.p.b) || !q->t.certified || digits_between(q) > EXACT_DIGITS) {
         return;
     }
     if (!(error_of(q, r) <= unit + SLOP)) {
@@ -499,17 +497,27 @@ static inline int answered(const question *q, const V(result) * r, int status)
     return 0;
 }
 
-static inline int ask_distance(question *q, int swap, V(result) * r)
+/* 0: refused, which was fair. */
+static inline int ask_either(question *q, int intersect, int swap, V(result) * r)
 {
+    static const char *const query[2][2] = {{"distance", "distance, swapped"}, {"intersect", "intersect, swapped"}};
     const V(shape) *a = &q->s.p.a.shape, *b = &q->s.p.b.shape;
     int status;
-    q->query = swap ? "distance, swapped" : "distance";
+    q->query = query[intersect][swap];
     memset(r, 0x5a, sizeof *r);
-    status = V(distance)(swap ? b : a, swap ? a : b, q->given, r);
+    status = (intersect ? V(intersect) : V(distance))(swap ? b : a, swap ? a : b, q->given, r);
     if (!answered(q, r, status)) {
         return 0;
     }
     check_form(q, r, status);
+    return 1;
+}
+
+static inline int ask_distance(question *q, int swap, V(result) * r)
+{
+    if (!ask_either(q, 0, swap, r)) {
+        return 0;
+    }
     if (!(r->lower >= 0)) {
         broken(q, "a distance below 0", r, 0);
     }
@@ -525,28 +533,23 @@ static inline int ask_distance(question *q, int swap, V(result) * r)
 
 static inline int ask_intersect(question *q, int swap, V(result) * r)
 {
-    const V(shape) *a = &q->s.p.a.shape, *b = &q->s.p.b.shape;
     quad nearest = q->t.lower > 0 ? q->t.lower : q->t.upper < 0 ? -q->t.upper : 0;
     double off = in_u(q, nearest, q->span), shallow = q->sharp ? SHALLOW : SHALLOW_ROUND;
-    int status;
-    q->query = swap ? "intersect, swapped" : "intersect";
-    memset(r, 0x5a, sizeof *r);
-    status = V(intersect)(swap ? b : a, swap ? a : b, q->given, r);
-    if (!answered(q, r, status)) {
+    if (!ask_either(q, 1, swap, r)) {
         return 0;
     }
-    check_form(q, r, status);
     check_bracket(q, r, q->t.lower, q->t.upper);
     if (r->value != (r->lower > 0 ? r->lower : r->upper < 0 ? r->upper : 0)) {
         broken(q, "the value does not state the verdict", r, 0);
     }
-    if ((status == GJK_OK || status == GJK_DECIDED) && !(r->lower > 0 || r->upper < 0 || r->upper == 0)) {
+    if ((r->status == GJK_OK || r->status == GJK_DECIDED) && !(r->lower > 0 || r->upper < 0 || r->upper == 0)) {
         broken(q, "decided, but no sign is proven", r, 0);
     }
-    if ((status == GJK_FLOOR || status == GJK_LIMIT) && (r->lower > 0 || r->upper < 0)) {
+    if ((r->status == GJK_FLOOR || r->status == GJK_LIMIT) && (r->lower > 0 || r->upper < 0)) {
         broken(q, "undecided, but a sign is proven", r, 0);
     }
-    if (status == GJK_FLOOR && q->tame && q->options.slack == 0 && !(off <= (q->t.lower > 0 ? width_of(q) : shallow))) {
+    if (r->status == GJK_FLOOR && q->tame && q->options.slack == 0 &&
+        !(off <= (q->t.lower > 0 ? width_of(q) : shallow))) {
         broken(q, "called touching, but is further off, in u * span", r, off);
     }
     if (!swap) {

@@ -169,7 +169,7 @@ static inline void print_body(FILE *f, const body *b)
         print_numbers(f, b->half, DIM);
     } else if (b->kind == ORIGIN) {
         fprintf(f, ", \"points\": [%s]", DIM == 3 ? "[0, 0, 0]" : "[0, 0]");
-    } else if (b->kind == SUM || b->kind == HULL) {
+    } else if (is_couple(b)) {
         fprintf(f, ", \"a\": ");
         print_body(f, b->part[0]);
         fprintf(f, ", \"b\": ");

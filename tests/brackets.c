@@ -384,7 +384,7 @@ static void family_holds(void **state)
            s->max_span_width, s->max_witness, s->sum_calls / (double)s->pairs, s->max_calls, s->floors, s->max_touch);
     print_faults(&s->faults, family_name[s->family]);
     assert_int_equal(s->faults.count, 0);
-    assert_true(s->uncertified <= s->pairs / 100);
+    assert_true(s->uncertified <= 3 + s->pairs / 100);
 }
 
 int main(int argc, char **argv)

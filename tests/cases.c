@@ -1,73 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* The cases of tests/cases, whose truth was found in exact arithmetic by other code (tests/oracle). They judge the
  * library, and also truth.h, which judges the library elsewhere. */
+#include "cases.h"
 #include "truth.h"
-
-#if VARIANT_DIM == 3 && !VARIANT_FLOAT
-#include "cases3.h"
-#define C(name) case3##name
-#define K(name) CASE3_##name
-#elif VARIANT_DIM == 3
-#include "cases3f.h"
-#define C(name) case3f##name
-#define K(name) CASE3F_##name
-#elif !VARIANT_FLOAT
-#include "cases2.h"
-#define C(name) case2##name
-#define K(name) CASE2_##name
-#else
-#include "cases2f.h"
-#define C(name) case2f##name
-#define K(name) CASE2F_##name
-#endif
 
 #define VALUE_ERROR 4.0 /* in u * scale */
 #define TELLS 100.0     /* in u * span: farther apart, intersect must say so */
-
-typedef C() test_case;
-typedef C(_shape) case_shape;
-
-static body bodies[16];
-static int bodies_used;
-
-static const body *body_of(const case_shape *s)
-{
-    body *b = &bodies[bodies_used++];
-    assert_true(bodies_used <= 16 && s->count <= MAX_POINTS);
-    start_body(b, s->kind == K(POINTS)     ? POINTS
-                  : s->kind == K(BOX)      ? BOX
-                  : s->kind == K(SEGMENT)  ? SEGMENT
-                  : s->kind == K(TRIANGLE) ? TRIANGLE
-                  : s->kind == K(BALL)     ? BALL
-                  : s->kind == K(CYLINDER) ? CYLINDER
-                  : s->kind == K(CONE)     ? CONE
-                  : s->kind == K(DISC)     ? DISC
-                  : s->kind == K(SUM)      ? SUM
-                  : s->kind == K(HULL)     ? HULL
-                                           : ORIGIN);
-    b->count = b->kind == POINTS ? (int)s->count : b->kind == SEGMENT ? 2 : b->kind == TRIANGLE ? 3 : 0;
-    if (b->count) {
-        memcpy(b->v, s->numbers, (size_t)b->count * sizeof b->v[0]);
-    } else if (b->kind == BOX) {
-        memcpy(b->half, s->numbers, sizeof b->half);
-    } else if (b->kind >= CYLINDER && b->kind <= BALL) {
-        b->radius = s->numbers[0];
-        b->half_length = b->kind <= CONE ? s->numbers[1] : 0;
-    } else if (b->kind >= SUM) {
-        b->part[0] = body_of(s->a);
-        b->part[1] = body_of(s->b);
-    }
-    if (s->pose) {
-        memcpy(b->pose.m, s->pose, sizeof b->pose.m);
-        memcpy(b->pose.p, s->pose + DIM * DIM, sizeof b->pose.p);
-    }
-    bind(b);
-    b->shape.radius = s->radius;
-    if (!s->pose) {
-        b->shape.pose = NULL;
-    }
-    return b;
-}
 
 static int failures;
 
@@ -91,13 +29,11 @@ static double ulp_of(quad x)
     return ldexp((double)REAL_EPSILON, e - 1);
 }
 
-static int solved_tight(const body *b) { return b->kind <= TRIANGLE || b->kind == ORIGIN; }
-
 /* With options.tight: of points, boxes, segments, triangles and single points to the last bit, contact as exactly 0,
  * and whether they meet is always told. Of other shapes as good an answer as without. */
 static void tight_case(const test_case *c, const body *a, const body *b, V(cache) * cache, quad low, quad high)
 {
-    int exact = solved_tight(a) && solved_tight(b);
+    int exact = has_corners(a) && has_corners(b);
     double ulp = ulp_of(high), ulps;
     quad v;
     V(options) o = default_options();
@@ -137,9 +73,7 @@ static void one_case(const test_case *c, V(cache) * cache)
     V(result) r;
     memset(&r, 0, sizeof r);
     o.cache = cache;
-    bodies_used = 0;
-    a = body_of(&c->a);
-    b = body_of(&c->b);
+    read_case(c, &a, &b);
     find_truth(&t, a, b, 1);
     span = span_of_pair(a, b);
     sharp = t.a.count && t.b.count;

@@ -27,6 +27,43 @@
 /* Of sizes from which there is room up and down, and spelled in the body itself. */
 static int is_plain(enum family f) { return !is_extreme(f) && f != CLOUDS; }
 
+/* Through the plain ones of the first so many families: so many pairs of each, every pair by draws of its own. */
+typedef struct walk {
+    uint64_t seed, each;
+    int families, family;
+    uint64_t drawn; /* of this family */
+    draws d;        /* as the pair has left them */
+} walk;
+
+/* 0: there are no more. */
+static int next_pair(walk *w, pair *p)
+{
+    for (; w->family < w->families; w->family++, w->drawn = 0) {
+        if (is_plain((enum family)w->family) && w->drawn < w->each) {
+            w->d = draws_from(w->seed, (uint64_t)w->family, w->drawn++);
+            draw_pair(&w->d, (enum family)w->family, p);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* ---- the four kinds of query ---- */
+
+#define KINDS 4
+
+typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
+static query_fn *const queries[2] = {V(distance), V(intersect)};
+static const char *const query_name[2] = {"distance", "intersect"};
+
+/* distance and intersect, then both tight. */
+static int ask(int kind, const pair *p, V(result) * r)
+{
+    V(options) o = default_options();
+    o.tight = (uint32_t)(kind / 2);
+    return queries[kind % 2](&p->a.shape, &p->b.shape, &o, r);
+}
+
 /* ---- another unit ---- */
 
 static real resized(real x, int k) { return (real)ldexp((double)x, k); }
@@ -120,9 +157,6 @@ typedef struct answers {
     V(result) r[ANSWERS];
 } answers;
 
-typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
-static query_fn *const queries[2] = {V(distance), V(intersect)};
-
 /* Cold by default and tight; with every option; and along a warm path of three places. */
 static void ask_all(const pair *given, int set, int map, answers *out)
 {
@@ -134,13 +168,8 @@ static void ask_all(const pair *given, int set, int map, answers *out)
     memset(&cache, 0, sizeof cache);
     p = *given;
     bind_pair(&p);
-    for (int tight = 0; tight < 2; tight++) {
-        for (int q = 0; q < 2; q++) {
-            o = default_options();
-            o.tight = (uint32_t)tight;
-            out->r[n].status = queries[q](&p.a.shape, &p.b.shape, &o, &out->r[n]);
-            n++;
-        }
+    for (; n < KINDS; n++) {
+        out->r[n].status = ask(n, &p, &out->r[n]);
     }
     o = default_options();
     o.abs_tol = resized((real)0.01, set + map);
@@ -251,7 +280,7 @@ static void must_be_same(const pair *p, const answers *x, const answers *y, int 
                         x->r[i].status, (double)x->r[i].lower, (double)x->r[i].value, (double)x->r[i].upper,
                         y->r[i].status, ldexp((double)y->r[i].lower, -k), ldexp((double)y->r[i].value, -k),
                         ldexp((double)y->r[i].upper, -k), k);
-            print_case(stderr, i % 2 ? "intersect" : "distance", &p->a, &p->b);
+            print_case(stderr, query_name[i % 2], &p->a, &p->b);
         }
     }
 }
@@ -285,32 +314,30 @@ static void compare(const pair *p, const answers *plain, int set, int map)
 
 static int any_power(draws *d) { return below(d, MOST_EXPONENT - LEAST_EXPONENT) + LEAST_EXPONENT; }
 
+static void expect_same(const char *how, long least)
+{
+    printf("%-6s %s: %ld answers compared, %ld differ, from 2^%d to 2^%d; %ld refused near overflow\n", VARIANT, how,
+           seen.compared, seen.different, seen.least, seen.most, seen.refused);
+    assert_true(seen.compared > least);
+    assert_int_equal(seen.different, 0);
+}
+
 static void another_unit(void **state)
 {
     static pair p;
     static answers plain;
     (void)state;
     memset(&seen, 0, sizeof seen);
-    for (int f = 0; f < FAMILIES; f++) {
-        if (!is_plain((enum family)f)) {
-            continue;
+    for (walk w = {.seed = 4, .families = FAMILIES, .each = PAIRS}; next_pair(&w, &p);) {
+        ask_all(&p, 0, 0, &plain);
+        for (int k = LEAST_EXPONENT; k <= MOST_EXPONENT && w.drawn <= THOROUGH; k++) {
+            compare(&p, &plain, k, 0);
         }
-        for (uint64_t i = 0; i < PAIRS; i++) {
-            draws d = draws_from(4, (uint64_t)f, i);
-            draw_pair(&d, (enum family)f, &p);
-            ask_all(&p, 0, 0, &plain);
-            for (int k = LEAST_EXPONENT; k <= MOST_EXPONENT && i < THOROUGH; k++) {
-                compare(&p, &plain, k, 0);
-            }
-            for (int n = 0; n < POWERS; n++) {
-                compare(&p, &plain, any_power(&d), 0);
-            }
+        for (int n = 0; n < POWERS; n++) {
+            compare(&p, &plain, any_power(&w.d), 0);
         }
     }
-    printf("%-6s another unit: %ld answers compared, %ld differ, from 2^%d to 2^%d; %ld refused near overflow\n",
-           VARIANT, seen.compared, seen.different, seen.least, seen.most, seen.refused);
-    assert_true(seen.compared > 10000);
-    assert_int_equal(seen.different, 0);
+    expect_same("another unit", 10000);
 }
 
 /* The set smaller and its map larger by as much, or both. */
@@ -320,24 +347,14 @@ static void another_unit_by_the_map(void **state)
     static answers plain;
     (void)state;
     memset(&seen, 0, sizeof seen);
-    for (int f = 0; f < FAMILIES; f++) {
-        if (!is_plain((enum family)f)) {
-            continue;
-        }
-        for (uint64_t i = 0; i < PAIRS; i++) {
-            draws d = draws_from(5, (uint64_t)f, i);
-            draw_pair(&d, (enum family)f, &p);
-            ask_all(&p, 0, 0, &plain);
-            for (int n = 0; n < POWERS; n++) {
-                int map = any_power(&d);
-                compare(&p, &plain, n % 3 ? any_power(&d) / (n % 3) : -map, map);
-            }
+    for (walk w = {.seed = 5, .families = FAMILIES, .each = PAIRS}; next_pair(&w, &p);) {
+        ask_all(&p, 0, 0, &plain);
+        for (int n = 0; n < POWERS; n++) {
+            int map = any_power(&w.d);
+            compare(&p, &plain, n % 3 ? any_power(&w.d) / (n % 3) : -map, map);
         }
     }
-    printf("%-6s by the map: %ld answers compared, %ld differ, from 2^%d to 2^%d; %ld refused near overflow\n", VARIANT,
-           seen.compared, seen.different, seen.least, seen.most, seen.refused);
-    assert_true(seen.compared > 1000);
-    assert_int_equal(seen.different, 0);
+    expect_same("by the map", 1000);
 }
 
 /* ---- subnormal numbers, and overflow ---- */
@@ -358,9 +375,9 @@ static void expect_bracket(const V(result) * r, int k, const truth *t, int query
         return;
     }
     print_error("%s %s at 2^%d: status %d %.17g .. %.17g .. %.17g, truth %.17g * 2^%d, of\n  ", VARIANT,
-                query ? "intersect" : "distance", k, r->status, (double)r->lower, (double)r->value, (double)r->upper,
-                (double)t->upper, k);
-    print_case(stderr, query ? "intersect" : "distance", &asked->a, &asked->b);
+                query_name[query], k, r->status, (double)r->lower, (double)r->value, (double)r->upper, (double)t->upper,
+                k);
+    print_case(stderr, query_name[query], &asked->a, &asked->b);
     fail();
 }
 
@@ -370,7 +387,6 @@ static long expect_brackets(const pair *p, int k, int may_refuse)
 {
     static pair there, back;
     static truth t;
-    V(options) o = default_options();
     V(result) r, before;
     long refused = 0;
     resize_pair(&there, p, k, 0);
@@ -378,14 +394,12 @@ static long expect_brackets(const pair *p, int k, int may_refuse)
     find_truth(&t, &back.a, &back.b, 1);
     memset(&before, 0x5a, sizeof before);
     asked = &there;
-    for (int n = 0; n < 4; n++) {
-        o.tight = (uint32_t)(n / 2);
+    for (int n = 0; n < KINDS; n++) {
         r = before;
-        int status = queries[n % 2](&there.a.shape, &there.b.shape, &o, &r);
-        if (status < 0) {
+        if (ask(n, &there, &r) < 0) {
             if (!may_refuse) {
-                print_error("%s %s at 2^%d is refused:\n  ", VARIANT, n % 2 ? "intersect" : "distance", k);
-                print_case(stderr, n % 2 ? "intersect" : "distance", &there.a, &there.b);
+                print_error("%s %s at 2^%d is refused:\n  ", VARIANT, query_name[n % 2], k);
+                print_case(stderr, query_name[n % 2], &there.a, &there.b);
                 fail();
             }
             assert_memory_equal(&r, &before, sizeof r);
@@ -402,16 +416,9 @@ static void subnormal_numbers(void **state)
 {
     static pair p;
     (void)state;
-    for (int f = 0; f < FAMILIES; f++) {
-        if (!is_plain((enum family)f)) {
-            continue;
-        }
-        for (uint64_t i = 0; i < PAIRS; i++) {
-            draws d = draws_from(6, (uint64_t)f, i);
-            draw_pair(&d, (enum family)f, &p);
-            for (int n = 0; n < POWERS / 2; n++) {
-                expect_brackets(&p, LEAST_EXPONENT - below(&d, FRACTION_BITS + 4), 0);
-            }
+    for (walk w = {.seed = 6, .families = FAMILIES, .each = PAIRS}; next_pair(&w, &p);) {
+        for (int n = 0; n < POWERS / 2; n++) {
+            expect_brackets(&p, LEAST_EXPONENT - below(&w.d, FRACTION_BITS + 4), 0);
         }
     }
 }
@@ -423,23 +430,16 @@ static void numbers_near_overflow(void **state)
     static pair p;
     long refused = 0, answered = 0;
     (void)state;
-    for (int f = 0; f < FAMILIES; f++) {
-        if (!is_plain((enum family)f)) {
-            continue;
-        }
-        for (uint64_t i = 0; i < PAIRS; i++) {
-            draws d = draws_from(7, (uint64_t)f, i);
-            range own, world, maps;
-            draw_pair(&d, (enum family)f, &p);
-            note_pair(&p, &own, &world, &maps);
-            for (int n = 0; n < POWERS / 2; n++) {
-                int spare = below(&d, 3 * headroom(&p)), most = own.most > world.most ? own.most : world.most;
-                if (most < LEAST_EXPONENT) {
-                    continue; /* nothing but zeros */
-                }
-                refused += expect_brackets(&p, MOST_EXPONENT - spare - most, spare < headroom(&p));
-                answered += 4;
+    for (walk w = {.seed = 7, .families = FAMILIES, .each = PAIRS}; next_pair(&w, &p);) {
+        range own, world, maps;
+        note_pair(&p, &own, &world, &maps);
+        for (int n = 0; n < POWERS / 2; n++) {
+            int spare = below(&w.d, 3 * headroom(&p)), most = own.most > world.most ? own.most : world.most;
+            if (most < LEAST_EXPONENT) {
+                continue; /* nothing but zeros */
             }
+            refused += expect_brackets(&p, MOST_EXPONENT - spare - most, spare < headroom(&p));
+            answered += KINDS;
         }
     }
     answered -= refused;
@@ -449,28 +449,34 @@ static void numbers_near_overflow(void **state)
 
 /* ---- far from the origin ---- */
 
-static void expect_good_value(const body *a, const body *b, double *worst)
+/* All four answers hold, and both distances are good. The worst error of these goes on. */
+static void expect_good_value(const pair *p, double *worst)
 {
     static truth t;
-    V(options) o = default_options();
     V(result) r;
     double error;
-    find_truth(&t, a, b, 1);
-    for (int n = 0; n < 4; n++) {
-        o.tight = (uint32_t)(n / 2);
+    find_truth(&t, &p->a, &p->b, 1);
+    asked = p;
+    for (int n = 0; n < KINDS; n++) {
         memset(&r, 0, sizeof r);
-        assert_true(queries[n % 2](&a->shape, &b->shape, &o, &r) >= 0);
+        assert_true(ask(n, p, &r) >= 0);
         expect_bracket(&r, 0, &t, n % 2);
         if (n % 2 == 0) {
             error = (double)(quad_abs((quad)r.value - positive(t.upper)) / ((quad)U * t.scale + (quad)REAL_MIN));
             if (error > VALUE_ERROR && *worst <= VALUE_ERROR) {
                 print_error("%s: value %.17g, truth %.17g, %.2f u * scale, of\n  ", VARIANT, (double)r.value,
                             (double)t.upper, error);
-                print_case(stderr, "distance", a, b);
+                print_case(stderr, "distance", &p->a, &p->b);
             }
             *worst = fmax(*worst, error);
         }
     }
+}
+
+static void expect_small(const char *where, double worst)
+{
+    printf("%-6s %s: error at most %.2f u * scale\n", VARIANT, where, worst);
+    assert_true(worst <= VALUE_ERROR);
 }
 
 /* Both bodies moved out by 1e12 of their sizes, which rounds their places, often to one and the same; the truth is that
@@ -480,23 +486,14 @@ static void far_from_the_origin(void **state)
     static pair p;
     double worst = 0;
     (void)state;
-    for (int f = 0; f < POLYTOPES; f++) {
-        if (!is_plain((enum family)f)) {
-            continue;
-        }
-        for (uint64_t i = 0; i < 10 * PAIRS; i++) {
-            draws d = draws_from(8, (uint64_t)f, i);
-            double dir[DIM];
-            draw_pair(&d, (enum family)f, &p);
-            unit(&d, dir);
-            move(&p.a, dir, 1e12);
-            move(&p.b, dir, 1e12);
-            asked = &p;
-            expect_good_value(&p.a, &p.b, &worst);
-        }
+    for (walk w = {.seed = 8, .families = POLYTOPES, .each = 10 * PAIRS}; next_pair(&w, &p);) {
+        double dir[DIM];
+        unit(&w.d, dir);
+        move(&p.a, dir, 1e12);
+        move(&p.b, dir, 1e12);
+        expect_good_value(&p, &worst);
     }
-    printf("%-6s 1e12 sizes from the origin: error at most %.2f u * scale\n", VARIANT, worst);
-    assert_true(worst <= VALUE_ERROR);
+    expect_small("1e12 sizes from the origin", worst);
 }
 
 /* The vertices themselves stand far out, no pose says so. */
@@ -512,19 +509,13 @@ static void far_vertices(void **state)
         draw_hull(&d, &p.a, 1 + below(&d, 12), 1);
         draw_hull(&d, &p.b, 1 + below(&d, 12), 1);
         unit(&d, dir);
-        for (int k = 0; k < MAX_POINTS; k++) {
-            for (int j = 0; j < DIM; j++) {
-                p.a.v[k][j] = (real)((double)p.a.v[k][j] + dir[j] * far);
-                p.b.v[k][j] = (real)((double)p.b.v[k][j] + dir[j] * (far + 1.5));
-            }
-        }
+        move_points(&p.a, dir, far);
+        move_points(&p.b, dir, far + 1.5);
         bind_pair(&p);
         p.a.shape.pose = p.b.shape.pose = NULL;
-        asked = &p;
-        expect_good_value(&p.a, &p.b, &worst);
+        expect_good_value(&p, &worst);
     }
-    printf("%-6s vertices 1 to 1e12 sizes from the origin: error at most %.2f u * scale\n", VARIANT, worst);
-    assert_true(worst <= VALUE_ERROR);
+    expect_small("vertices 1 to 1e12 sizes from the origin", worst);
 }
 
 /* The pair as it is from a, where a's map is a turn: a has no pose, b's is turned back by it, to rounding. */
@@ -554,20 +545,11 @@ static void relative_to_a(void **state)
     static pair p;
     double worst = 0;
     (void)state;
-    for (int f = 0; f < POLYTOPES; f++) {
-        if (!is_plain((enum family)f)) {
-            continue;
-        }
-        for (uint64_t i = 0; i < 10 * PAIRS; i++) {
-            draws d = draws_from(10, (uint64_t)f, i);
-            draw_pair(&d, (enum family)f, &p);
-            see_from_a(&p);
-            asked = &p;
-            expect_good_value(&p.a, &p.b, &worst);
-        }
+    for (walk w = {.seed = 10, .families = POLYTOPES, .each = 10 * PAIRS}; next_pair(&w, &p);) {
+        see_from_a(&p);
+        expect_good_value(&p, &worst);
     }
-    printf("%-6s b relative to a: error at most %.2f u * scale\n", VARIANT, worst);
-    assert_true(worst <= VALUE_ERROR);
+    expect_small("b relative to a", worst);
 }
 
 /* Places on a grid that the world's coordinates still hold far out: the bracket and the normal keep their bits there,
@@ -577,40 +559,31 @@ static void moved_without_rounding(void **state)
     static pair p, q;
     const double grid = VARIANT_FLOAT ? 4 : 1024, far = VARIANT_FLOAT ? 262144 : 1099511627776.0;
     (void)state;
-    for (int f = 0; f < FAMILIES; f++) {
-        if (!is_plain((enum family)f)) {
-            continue;
+    for (walk w = {.seed = 11, .families = FAMILIES, .each = PAIRS}; next_pair(&w, &p);) {
+        for (int j = 0; j < DIM; j++) {
+            p.a.pose.p[j] = 0;
+            p.b.pose.p[j] = (real)(rint((double)p.b.pose.p[j] * grid) / grid + 0); /* -0 is another tie */
+            if (fabs((double)p.b.pose.p[j]) > far) {
+                p.b.pose.p[j] = 1;
+            }
         }
-        for (uint64_t i = 0; i < PAIRS; i++) {
-            draws d = draws_from(11, (uint64_t)f, i);
-            draw_pair(&d, (enum family)f, &p);
-            for (int j = 0; j < DIM; j++) {
-                p.a.pose.p[j] = 0;
-                p.b.pose.p[j] = (real)(rint((double)p.b.pose.p[j] * grid) / grid + 0); /* -0 is another tie */
-                if (fabs((double)p.b.pose.p[j]) > far) {
-                    p.b.pose.p[j] = 1;
-                }
-            }
-            q = p;
-            bind_pair(&p);
-            bind_pair(&q);
-            for (int j = 0; j < DIM; j++) {
-                double by = rint(between(&d, -far, far));
-                q.a.pose.p[j] = (real)by;
-                q.b.pose.p[j] = (real)(by + (double)p.b.pose.p[j]);
-            }
-            for (int n = 0; n < 4; n++) {
-                V(options) o = default_options();
-                V(result) x, y;
-                o.tight = (uint32_t)(n / 2);
-                memset(&x, 0, sizeof x);
-                memset(&y, 0, sizeof y);
-                assert_true(queries[n % 2](&p.a.shape, &p.b.shape, &o, &x) >= 0);
-                assert_true(queries[n % 2](&q.a.shape, &q.b.shape, &o, &y) >= 0);
-                memcpy(y.point_a, x.point_a, sizeof x.point_a);
-                memcpy(y.point_b, x.point_b, sizeof x.point_b);
-                assert_int_equal(first_difference(&x, &y, 0), -1);
-            }
+        q = p;
+        bind_pair(&p);
+        bind_pair(&q);
+        for (int j = 0; j < DIM; j++) {
+            double by = rint(between(&w.d, -far, far));
+            q.a.pose.p[j] = (real)by;
+            q.b.pose.p[j] = (real)(by + (double)p.b.pose.p[j]);
+        }
+        for (int n = 0; n < KINDS; n++) {
+            V(result) x, y;
+            memset(&x, 0, sizeof x);
+            memset(&y, 0, sizeof y);
+            assert_true(ask(n, &p, &x) >= 0);
+            assert_true(ask(n, &q, &y) >= 0);
+            memcpy(y.point_a, x.point_a, sizeof x.point_a);
+            memcpy(y.point_b, x.point_b, sizeof x.point_b);
+            assert_int_equal(first_difference(&x, &y, 0), -1);
         }
     }
 }

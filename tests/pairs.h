@@ -75,7 +75,7 @@ static inline void bind_pair(pair *p)
 {
     body *whole[2] = {&p->a, &p->b};
     for (int k = 0; k < 2; k++) {
-        if (whole[k]->kind == SUM || whole[k]->kind == HULL) {
+        if (is_couple(whole[k])) {
             for (int i = 0; i < 2; i++) {
                 whole[k]->part[i] = &p->part[2 * k + i];
                 bind(&p->part[2 * k + i]);
@@ -98,6 +98,16 @@ static inline void move(body *b, const double *dir, double by)
 {
     for (int i = 0; i < DIM; i++) {
         b->pose.p[i] = (real)((double)b->pose.p[i] + dir[i] * by);
+    }
+}
+
+/* The same by the points, of a body that has its own. */
+static inline void move_points(body *b, const double *dir, double by)
+{
+    for (int k = 0; k < b->count; k++) {
+        for (int i = 0; i < DIM; i++) {
+            b->v[k][i] = (real)((double)b->v[k][i] + dir[i] * by);
+        }
     }
 }
 
@@ -512,6 +522,15 @@ static inline void draw_boxes_in_contact(draws *d, pair *p, double *n)
     }
 }
 
+static inline void draw_in_contact(draws *d, pair *p, double *n)
+{
+    if (below(d, 3)) {
+        draw_hulls_in_contact(d, p, n);
+    } else {
+        draw_boxes_in_contact(d, p, n);
+    }
+}
+
 /* The same whole motion and power of two for both. */
 static inline void move_exactly(draws *d, pair *p)
 {
@@ -547,11 +566,7 @@ static inline void move_exactly(draws *d, pair *p)
 static inline void draw_contact(draws *d, pair *p)
 {
     double n[DIM];
-    if (below(d, 3)) {
-        draw_hulls_in_contact(d, p, n);
-    } else {
-        draw_boxes_in_contact(d, p, n);
-    }
+    draw_in_contact(d, p, n);
     move_exactly(d, p);
 }
 
@@ -559,11 +574,7 @@ static inline void draw_contact(draws *d, pair *p)
 static inline void draw_gap(draws *d, pair *p)
 {
     double n[DIM], length = 0, gap = magnitude(d, -16, -1) * (below(d, 5) ? 1 : -1);
-    if (below(d, 3)) {
-        draw_hulls_in_contact(d, p, n);
-    } else {
-        draw_boxes_in_contact(d, p, n);
-    }
+    draw_in_contact(d, p, n);
     for (int i = 0; i < DIM; i++) {
         length += n[i] * n[i];
     }
@@ -836,11 +847,7 @@ static inline void draw_far_out(draws *d, pair *p)
             move(b, dir, by);
             continue;
         }
-        for (int i = 0; i < DIM; i++) {
-            for (int j = 0; j < b->count; j++) {
-                b->v[j][i] = (real)((double)b->v[j][i] + dir[i] * by);
-            }
-        }
+        move_points(b, dir, by);
         memset(b->pose.m, 0, sizeof b->pose.m);
         for (int i = 0; i < DIM; i++) {
             b->pose.m[i * DIM + i] = 1;

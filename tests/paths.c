@@ -204,8 +204,10 @@ static void start_scene(const char *name)
     memset(&found, 0, sizeof found);
 }
 
-static void of_family(enum family family)
+/* state: which family */
+static void of_family(void **state)
 {
+    enum family family = *(const enum family *)*state;
     start_scene(family_name[family]);
     for (int k = 0; k < TRACKS; k++) {
         draws d = draws_from(9, (uint64_t)family, (uint64_t)k);
@@ -217,50 +219,6 @@ static void of_family(enum family family)
     }
     report();
 }
-
-static void of_boxes(void **state)
-{
-    (void)state;
-    of_family(BOXES);
-}
-
-static void of_hulls(void **state)
-{
-    (void)state;
-    of_family(HULLS);
-}
-
-static void of_edges(void **state)
-{
-    (void)state;
-    of_family(EDGES);
-}
-
-static void of_rounded_bodies(void **state)
-{
-    (void)state;
-    of_family(ROUNDED);
-}
-
-static void of_ellipsoids(void **state)
-{
-    (void)state;
-    of_family(ELLIPSOIDS);
-}
-
-#if DIM == 3
-static void of_cylinders(void **state)
-{
-    (void)state;
-    of_family(CYLINDERS);
-}
-
-static void of_cones(void **state)
-{
-    (void)state;
-    of_family(CONES);
-}
-#endif
 
 /* Face to face, and turned by 1e-3 to 1e-15. */
 static void of_nearly_parallel_boxes(void **state)
@@ -341,19 +299,26 @@ static void of_piles(void **state)
     report();
 }
 
+static struct CMUnitTest family_test(enum family family)
+{
+    static enum family families[FAMILIES];
+    families[family] = family;
+    return (struct CMUnitTest){family_name[family], of_family, NULL, NULL, &families[family]};
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_boxes),
-        cmocka_unit_test(of_hulls),
-        cmocka_unit_test(of_edges),
+        family_test(BOXES),
+        family_test(HULLS),
+        family_test(EDGES),
         cmocka_unit_test(of_nearly_parallel_boxes),
         cmocka_unit_test(of_whole_coordinates),
-        cmocka_unit_test(of_rounded_bodies),
-        cmocka_unit_test(of_ellipsoids),
+        family_test(ROUNDED),
+        family_test(ELLIPSOIDS),
 #if DIM == 3
-        cmocka_unit_test(of_cylinders),
-        cmocka_unit_test(of_cones),
+        family_test(CYLINDERS),
+        family_test(CONES),
 #endif
         cmocka_unit_test(of_piles),
     };

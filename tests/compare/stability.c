@@ -5,28 +5,11 @@
  *
  * A peer without a module is named as missing. Ends with 1 where the library failed, and where a peer is missing that
  * the environment variable GJK_COMPARE_NEEDS names. */
+#include "../cases.h"
 #include "../exact.h"
 #include "../pairs.h"
 #include "../truth.h"
 #include "ask.h"
-
-#if VARIANT_DIM == 3 && !VARIANT_FLOAT
-#include "cases3.h"
-#define C(name) case3##name
-#define K(name) CASE3_##name
-#elif VARIANT_DIM == 3
-#include "cases3f.h"
-#define C(name) case3f##name
-#define K(name) CASE3F_##name
-#elif !VARIANT_FLOAT
-#include "cases2.h"
-#define C(name) case2##name
-#define K(name) CASE2_##name
-#else
-#include "cases2f.h"
-#define C(name) case2f##name
-#define K(name) CASE2F_##name
-#endif
 
 #define VALUE_ERROR 4.0   /* in u * scale, of polytopes */
 #define TIGHT_ERROR 1.0   /* in ulp */
@@ -48,42 +31,6 @@ static const char *group_name(int group)
 
 /* ---- the pairs ---- */
 
-static body bodies[16];
-static int bodies_used;
-
-static const body *body_of(const C(_shape) * s)
-{
-    static const enum kind kinds[] = {[K(ORIGIN)] = ORIGIN,     [K(POINTS)] = POINTS,     [K(BOX)] = BOX,
-                                      [K(SEGMENT)] = SEGMENT,   [K(TRIANGLE)] = TRIANGLE, [K(BALL)] = BALL,
-                                      [K(CYLINDER)] = CYLINDER, [K(CONE)] = CONE,         [K(DISC)] = DISC,
-                                      [K(SUM)] = SUM,           [K(HULL)] = HULL};
-    body *b = &bodies[bodies_used++];
-    if (bodies_used > 16 || s->count > MAX_POINTS) {
-        fprintf(stderr, "a case is too large for its body\n");
-        abort();
-    }
-    start_body(b, kinds[s->kind]);
-    b->count = b->kind == POINTS ? (int)s->count : b->kind == SEGMENT ? 2 : b->kind == TRIANGLE ? 3 : 0;
-    if (b->count) {
-        memcpy(b->v, s->numbers, (size_t)b->count * sizeof b->v[0]);
-    } else if (b->kind == BOX) {
-        memcpy(b->half, s->numbers, sizeof b->half);
-    } else if (b->kind >= CYLINDER && b->kind <= BALL) {
-        b->radius = s->numbers[0];
-        b->half_length = b->kind <= CONE ? s->numbers[1] : 0;
-    } else if (b->kind == SUM || b->kind == HULL) {
-        b->part[0] = body_of(s->a);
-        b->part[1] = body_of(s->b);
-    }
-    if (s->pose) {
-        memcpy(b->pose.m, s->pose, sizeof b->pose.m);
-        memcpy(b->pose.p, s->pose + DIM * DIM, sizeof b->pose.p);
-    }
-    bind(b);
-    b->shape.radius = s->radius;
-    return b;
-}
-
 static int is_extreme_group(int group) { return group < FAMILIES && is_extreme((enum family)group); }
 
 static uint64_t seed;
@@ -91,7 +38,7 @@ static long pairs_per_family;
 static const char *missing[MOST_PEERS];
 static int missing_count;
 
-static int is_museum(const C() * c) { return strcmp(c->group, "museum") == 0; }
+static int is_museum(const test_case *c) { return strcmp(c->group, "museum") == 0; }
 
 /* The pair of that index, and what is known of it. 0: there are no more. */
 static int get_pair(int group, long index, const body **a, const body **b, truth *t)
@@ -114,12 +61,10 @@ static int get_pair(int group, long index, const body **a, const body **b, truth
     if (at == C(_count)) {
         return 0;
     }
-    bodies_used = 0;
-    *a = body_of(&C(_all)[at].a);
-    *b = body_of(&C(_all)[at].b);
+    read_case(&C(_all)[at], a, b);
     find_truth(t, *a, *b, 1);
     if (t->lower > 0) { /* a case's own bracket of the distance is of exact arithmetic */
-        const C() *c = &C(_all)[at];
+        const test_case *c = &C(_all)[at];
         quad low = (quad)c->lower_hi + (quad)c->lower_lo, high = (quad)c->upper_hi + (quad)c->upper_lo;
         t->lower = low > t->lower ? low : t->lower;
         t->upper = high < t->upper ? high : t->upper;
@@ -208,13 +153,6 @@ static void try_distance(void)
     s->max_width = fmax(s->max_width, in_u((quad)r.upper - (quad)r.lower, t->scale));
     s->sum_calls += calls;
     s->max_calls = fmax(s->max_calls, calls);
-}
-
-/* What options.tight is for. */
-static int is_literal(const body *b)
-{
-    return b->kind == POINTS || b->kind == CLOUD || b->kind == BOX || b->kind == SEGMENT || b->kind == TRIANGLE ||
-           b->kind == ORIGIN;
 }
 
 /* Whole numbers of any length decide here. */
@@ -474,7 +412,7 @@ static void one_group(tally *s, const peer_list *peers)
         s->pairs++;
         s->apart += t.lower > 0;
         s->meeting += t.upper < 0;
-        now.exact = is_literal(now.a) && is_literal(now.b);
+        now.exact = has_corners(now.a) && has_corners(now.b);
         if (now.exact) {
             exact_distance(&exactly, now.a, now.b);
             try_tight();
