@@ -212,13 +212,18 @@ static void project(search *q, int whole)
     q->vv = dot(q->v, q->v);
 }
 
-/* By how much a corner lies lower along v than the one that v is, by the way from there, which is not rounded like the
- * corners themselves: of points that lie close together it may be all there is to see. */
+/* What w of a corner lost to rounding. */
+static vec lost_of(const search *q, const vertex *p)
+{
+    const difference *d = &q->d;
+    return remainder_of(d, mul(p->x, d->a.grain), axis(0, 0), mul(p->y, d->b.grain), axis(0, 0), p->w);
+}
+
+/* By how much a corner lies lower along v than the simplex, without the roundings of either. */
 static real fine_gap(const search *q, const vertex *p)
 {
     const vertex *from = corner(&q->s, 0);
-    vec x = place(&q->d.a, sub(from->x, p->x)), y = place(&q->d.b, sub(from->y, p->y));
-    return dot(q->v, sub(x, y));
+    return dot(q->v, add(sub(from->w, p->w), sub(lost_of(q, from), lost_of(q, p))));
 }
 
 /* What the corner in the spare slot shows; OPEN where the search may go on. */
@@ -238,7 +243,7 @@ static inline enum end consider(search *q, const goal *g)
         for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), last);
         if (q->repeated) return STILL;
         if (!(gap > noise)) {
-            q->stuck = q->s.n == 1 && fine_gap(q, last) > noise;
+            q->stuck = g->exact && !g->sign_only && fine_gap(q, last) > 4 * noise;
             return STILL;
         }
     }

@@ -5,15 +5,27 @@
 
 #include "corners.h"
 
-/* A triangle whose angle has a squared sine below this is projected onto side by side. Its normal is off by UNIT over
- * the sine, and tilts v by as much along the whole triangle; side by side v is square to the longer side to a UNIT, but
- * off by a UNIT of the corners, however near it is. Where one becomes worse than the other: docs/bounds.md. */
+/* Squared sines of a triangle's angle: how narrow it is, whatever its size. What they are measured by is in
+ * docs/bounds.md.
+ *
+ * Its normal is off by UNIT over the sine. Below SLENDER that shows along the longer side, and is taken out there.
+ * Below NARROW the rest shows too, and the triangle is projected onto side by side: v is then square to the longer side
+ * to a UNIT, but off by a UNIT of the corners, however near it is. */
+#define SLENDER ((real)1e-2)
 #define NARROW ((real)1e-5)
 
 static inline vec cross(vec a, vec b)
 {
     vec r = {{a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2], a.c[0] * b.c[1] - a.c[1] * b.c[0]}};
     return r;
+}
+
+/* The normal of a triangle with sides a and b, of squared lengths aa and bb. */
+static inline vec normal_of(vec a, vec b, real aa, real bb)
+{
+    vec n = cross(a, b);
+    if (dot(n, n) > SLENDER * aa * bb) return n;
+    return aa > bb ? sub(n, mul(a, dot(n, a) / aa)) : sub(n, mul(b, dot(n, b) / bb));
 }
 
 /* A triangle so narrow that its normal is mostly noise: onto its longer side first, then across it. The weights are of
@@ -34,8 +46,10 @@ static void across(vec p, vec along, vec aside, vec *v, real weight[3])
  * leeway. Weights of p, q, r. */
 static inline int face(vec p, vec q, vec r, real leeway, vec *v, real weight[3])
 {
-    vec a = sub(q, p), b = sub(r, p), n = cross(a, b);
-    real nn = dot(n, n), aa = dot(a, a), bb = dot(b, b);
+    vec a = sub(q, p), b = sub(r, p);
+    real aa = dot(a, a), bb = dot(b, b);
+    vec n = normal_of(a, b, aa, bb);
+    real nn = dot(n, n);
     if (nn > NARROW * aa * bb) {
         weight[1] = dot(n, cross(b, p));
         weight[2] = dot(n, cross(p, a));
@@ -132,16 +146,20 @@ static vec nearest(simplex *s)
 static vec square_to(const simplex *s, vec v)
 {
     if (s->n != 2 && s->n != 3) return v;
-    vec a = sub(point(s, 1), point(s, 0)), b = s->n == 3 ? sub(point(s, 2), point(s, 0)) : a, n = cross(a, b);
-    real aa = dot(a, a), bb = dot(b, b), nn = dot(n, n);
+    vec a = sub(point(s, 1), point(s, 0)), b = s->n == 3 ? sub(point(s, 2), point(s, 0)) : a;
+    real aa = dot(a, a), bb = dot(b, b);
+    vec n = normal_of(a, b, aa, bb);
+    real nn = dot(n, n);
     if (nn > NARROW * aa * bb) return mul(n, dot(n, v) / nn);
     return aa > bb ? sub(v, mul(a, dot(v, a) / aa)) : sub(v, mul(b, dot(v, b) / bb));
 }
 
 static void change(const simplex *s, vec way, real weight[4])
 {
-    vec p = point(s, 0), a = sub(point(s, 1), p), b = s->n > 2 ? sub(point(s, 2), p) : a, n = cross(a, b);
-    real aa = dot(a, a), bb = dot(b, b), nn = dot(n, n);
+    vec p = point(s, 0), a = sub(point(s, 1), p), b = s->n > 2 ? sub(point(s, 2), p) : a;
+    real aa = dot(a, a), bb = dot(b, b);
+    vec n = normal_of(a, b, aa, bb);
+    real nn = dot(n, n);
     for (int i = 0; i < 4; i++) weight[i] = 0;
     if (s->n == 4) {
         vec c = sub(point(s, 3), p);
