@@ -229,6 +229,29 @@ static void nested_couples(void **state)
     }
 }
 
+/* Parts that stand far from where the couple comes to lie, and of unknown reach: the couple's own reach was surveyed
+ * from outside, where the roundings of its making are not seen. */
+static void parts_of_unknown_reach(void **state)
+{
+    const double far_off = ldexp(1, VARIANT_FLOAT ? 13 : 20);
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        draws d = draws_from(23, 0, (uint64_t)n);
+        int sum = (int)below(&d, 2);
+        fresh(NULL);
+        for (int k = 0; k < 2; k++) {
+            draw_points(&part[k], &d, 1 + (int)below(&d, 3), 1);
+            part[k].set.points.reach = below(&d, 4) ? 0 : part[k].set.points.reach;
+            part[k].pose.p[0] = (real)(sum && k ? -far_off : far_off);
+            for (int i = 0; i < part[k].count && !sum; i++) {
+                part[k].v[i][0] -= (real)far_off;
+            }
+        }
+        couple(&a, sum ? SUM : HULL, &part[0], &part[1]);
+        expect_found(NEVER);
+    }
+}
+
 /* ---- poses ---- */
 
 static void two_points(double x, double y, double map)
@@ -256,6 +279,50 @@ static void bodies_posed_into_subnormals(void **state)
     for (int k = 0; k < 40; k++) {
         double x = ldexp(1 + k / 40.0, VARIANT_FLOAT ? -60 : -300);
         two_points(x, -x, (double)REAL_MIN / 256);
+    }
+}
+
+/* Two points about as long as the least normal number, and the origin in a direction in which the nearer is hard to
+ * tell: heights along a direction of size 1 round by whole tinies, more than the licence of so small a set. As a cloud,
+ * as a couple, and under a map to normal size. */
+static void as_small_as_normal_numbers_get(void **state)
+{
+    const double digits = ldexp(1, VARIANT_FLOAT ? 23 : 52);
+    (void)state;
+    for (int n = 0; n < 2 * DRAWS; n++) {
+        draws d = draws_from(24, 0, (uint64_t)n);
+        double sum = 0, near = 32 * (double)below(&d, 4);
+        int posed = (int)below(&d, 2);
+        body *k = below(&d, 2) ? &part[0] : &a;
+        fresh(NULL);
+        k->kind = POINTS;
+        k->count = 2;
+        for (int i = 0; i < DIM; i++) {
+            double at = 32 * floor(between(&d, -1, 1) * digits / 32) + 24;
+            at = i < DIM - 1 ? at : DIM * near - 24 - sum;
+            sum += at;
+            k->v[0][i] = (real)(at * TINY);
+            k->v[1][i] = (real)(near * TINY);
+        }
+        bind(k);
+        if (k == &part[0]) {
+            couple(&a, SUM, &part[0], &part[1]);
+        }
+        if (posed) {
+            map_by(&a, ldexp(1, VARIANT_FLOAT ? 100 : 1000));
+        }
+        b.kind = POINTS;
+        b.count = 1;
+        for (int i = 0; i < DIM; i++) {
+            b.pose.p[i] = (real)(256 * TINY) * a.pose.m[0];
+        }
+        bind(&b);
+        expect_found(NEVER);
+        V(options) o = default_options();
+        static truth t;
+        find_truth(&t, &a, &b, 1);
+        o.max_steps = 1;
+        expect(&o, t.lower, t.upper, NEVER);
     }
 }
 
@@ -451,7 +518,9 @@ int main(void)
         cmocka_unit_test_setup(inner_map_overflows_direction, fresh),
         cmocka_unit_test_setup(inner_map_underflows_direction, fresh),
         cmocka_unit_test_setup(nested_couples, fresh),
+        cmocka_unit_test_setup(parts_of_unknown_reach, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
+        cmocka_unit_test_setup(as_small_as_normal_numbers_get, fresh),
         cmocka_unit_test_setup(flattened_ball, fresh),
         cmocka_unit_test_setup(warm_start_from_a_speck, fresh),
         cmocka_unit_test_setup(infinite_point, fresh),

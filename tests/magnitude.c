@@ -227,8 +227,9 @@ static int same_numbers(const real *x, const real *y, int k)
     return same;
 }
 
-/* The index of the first field that differs, -1 where none does. */
-static int first_difference(const V(result) * x, const V(result) * y, int k)
+/* The index of the first field that differs, -1 where none does. Of the smallest sets the first question is put twice,
+ * to each. */
+static int first_difference(const V(result) * x, const V(result) * y, int set, int k)
 {
     const int same[] = {same_number(x->value, y->value, k),
                         same_number(x->lower, y->lower, k),
@@ -238,7 +239,7 @@ static int first_difference(const V(result) * x, const V(result) * y, int k)
                         same_numbers(x->normal, y->normal, 0),
                         x->status == y->status,
                         x->steps == y->steps,
-                        x->supports == y->supports};
+                        y->supports - x->supports >= 0 && y->supports - x->supports <= (set < 0 ? 2 : 0)};
     if (x->status != y->status) {
         return 6;
     }
@@ -266,7 +267,7 @@ static void must_be_same(const pair *p, const answers *x, const answers *y, int 
         if (!is_normal_answer(&x->r[i], k)) {
             continue;
         }
-        field = first_difference(&x->r[i], &y->r[i], k);
+        field = first_difference(&x->r[i], &y->r[i], set, k);
         seen.compared++;
         if (field < 0) {
             continue;
@@ -583,7 +584,7 @@ static void moved_without_rounding(void **state)
             assert_true(ask(n, &q, &y) >= 0);
             memcpy(y.point_a, x.point_a, sizeof x.point_a);
             memcpy(y.point_b, x.point_b, sizeof x.point_b);
-            assert_int_equal(first_difference(&x, &y, 0), -1);
+            assert_int_equal(first_difference(&x, &y, 0, 0), -1);
         }
     }
 }

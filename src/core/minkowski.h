@@ -18,6 +18,7 @@
 #define GJK_CORE_MINKOWSKI_H
 
 #include "exact.h"
+#include "reach.h"
 #include "simplex.h"
 
 typedef struct body {
@@ -102,24 +103,11 @@ static inline int ask(difference *d, vec v, vertex *p, real reach[2])
     return 1;
 }
 
-/* Finds the reach of a set whose support does not say: the box around it, two calls an axis, each short by the slack.
- */
-static int survey(difference *d, body *k, real slack)
+/* Takes the reach that a support has said, or finds it. 0: there is none. */
+static int measure(difference *d, body *k, real said, real slack)
 {
-    vec far = axis(0, 0), x;
-    real unsaid;
-    for (int i = 0; i < 2 * DIM; i++) {
-        real sign = i & 1 ? (real)-1 : (real)1;
-        d->calls++;
-        x = nowhere();
-        unsaid = k->support(k->data, axis(i / 2, sign).c, x.c);
-        if (!(unsaid == 0)) return 0;
-        for (int j = 0; j < DIM; j++) {
-            if (!bounded(x.c[j])) return 0;
-            far.c[j] = larger(size(x.c[j]) + slack, far.c[j]);
-        }
-    }
-    k->reach = spread(far) * (1 + 16 * UNIT) + 4 * TINY;
+    if (said == 0) d->calls += SURVEY_CALLS;
+    k->reach = said == 0 ? surveyed(k->support, k->data, slack) : said;
     return k->reach <= REAL_MAX;
 }
 
@@ -172,7 +160,8 @@ static int settle(difference *d, real slack)
         if (faint(d->b.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->b.stretch);
     }
     d->slack = 0; /* and no 0 times infinity */
-    if (slack > 0) d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 8 * UNIT);
+    if (slack > 0)
+        d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 256 * UNIT);
     d->slack = smaller(d->slack, REAL_MAX);
     return d->doubt <= REAL_MAX;
 }
@@ -205,9 +194,10 @@ static int meet(difference *d, vec v, real slack, vertex *p)
 {
     real reach[2];
     if (!ask(d, v, p, reach)) return 0;
-    if (reach[0] == 0 ? !survey(d, &d->a, slack) : (d->a.reach = reach[0], 0)) return 0;
-    if (reach[1] == 0 ? !survey(d, &d->b, slack) : (d->b.reach = reach[1], 0)) return 0;
-    if (!settle(d, slack)) return 0;
+    if (!measure(d, &d->a, reach[0], slack) || !measure(d, &d->b, reach[1], slack) || !settle(d, slack)) return 0;
+    /* now that directions are lifted */
+    if (tiny(d->a.reach) && !farthest(d, &d->a, mul(v, -1), &p->x, &reach[0])) return 0;
+    if (tiny(d->b.reach) && !farthest(d, &d->b, v, &p->y, &reach[1])) return 0;
     p->w = corner_of(d, p->x, p->y);
     return fits(&d->a, p->x) && fits(&d->b, p->y);
 }

@@ -108,6 +108,9 @@ static inline int unruly(real x) { return !(x > 1 / PLAIN && x < PLAIN); }
 /* A reach so small that a rounding of the least number is no rounding of the reach. A set of no size rounds nothing. */
 static inline int faint(real reach) { return reach > TINY && reach < REAL_MIN; }
 
+/* A reach so small that heights along a direction of size 1/16 round by more than the reach does. */
+static inline int tiny(real reach) { return reach > TINY && reach < 64 * REAL_MIN; }
+
 /* A power of two that brings x, finite and not negative, into [1, 2), in the topmost binade [2, 4); as near as the
  * format allows where x is subnormal. */
 static inline real leveler(real x)

@@ -4,7 +4,7 @@
 #ifndef GJK_CORE_SHAPES_H
 #define GJK_CORE_SHAPES_H
 
-#include "linear.h"
+#include "reach.h"
 
 typedef pub(points) points;
 typedef pub(box) box;
@@ -259,30 +259,41 @@ static vec nth_corner(const shape *s, size_t n)
     return r;
 }
 
+/* The direction as the part sees it, of a size that makes its heights those that the couple sees: not so small that
+ * they underflow. */
+static vec seen_by(const pose *p, real grows, vec dir)
+{
+    vec d = levelled(dir);
+    real lift = 16 / leveler(peak(dir));
+    if (p && grows > 0) {
+        d = levelled(pull(p->m, mul(d, leveler(grows))));
+        lift *= 1 / leveler(grows);
+    }
+    return mul(d, smaller(larger(lift, 1), LIFT));
+}
+
 /* One of a couple, pose and radius included. Its reach counts all that passes through the rounding here, what
- * underflows too, so that the licence of 8 roundings holds for the couple. A reach that is not known can't be charged
- * for a pose of extreme size: NaN. */
+ * underflows too, so that the licence of 8 roundings holds for the couple: so it must be known, and is surveyed where
+ * the part does not say. From outside the couple that can't be done. */
 static real support_of(const shape *s, vec dir, vec *out)
 {
     const pose *p = s->pose;
     real grows = p ? stretch(p->m) : 1;
     if (!s->support || !sized(&s->radius, 1) || !(grows <= REAL_MAX)) return (real)NAN;
-    vec d = levelled(dir);
-    if (p && grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
     *out = nowhere();
-    real reach = s->support(s->data, d.c, out->c);
+    real reach = s->support(s->data, seen_by(p, grows, dir).c, out->c);
     if (p) *out = add(map(p->m, *out), load(p->p));
     if (s->radius > 0) *out = add(*out, along(dir, s->radius));
-    if (!(reach > 0)) return grows > 0 && unruly(grows) ? (real)NAN : reach;
+    if (reach == 0) reach = surveyed(s->support, s->data, 0);
+    if (!(reach > 0)) return (real)NAN;
     if (faint(reach)) reach += 16 * REAL_MIN;
     return (p ? 4 * (grows * reach) + spread(load(p->p)) : reach) + s->radius + 64 * TINY;
 }
 
-/* Of both together: a bound must be finite, and is not known if one is not. */
-static real reach_of(real a, real b, real together)
+/* A couple's reach, which must be finite; so must its parts'. */
+static real joint(real reach_a, real reach_b, real reach)
 {
-    if (!(a <= REAL_MAX && b <= REAL_MAX)) return (real)NAN;
-    return a > 0 && b > 0 ? together : 0;
+    return reach_a <= REAL_MAX && reach_b <= REAL_MAX ? reach : (real)NAN;
 }
 
 GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DIM])
@@ -292,7 +303,7 @@ GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DI
     if (!c) return refuse(out);
     real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
     store(out, add(a, b));
-    return reach_of(reach_a, reach_b, 2 * (reach_a + reach_b));
+    return joint(reach_a, reach_b, 2 * (reach_a + reach_b));
 }
 
 GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[DIM])
@@ -302,7 +313,7 @@ GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[D
     if (!c) return refuse(out);
     real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
     store(out, dot(d, a) >= dot(d, b) ? a : b);
-    return reach_of(reach_a, reach_b, 2 * larger(reach_a, reach_b));
+    return joint(reach_a, reach_b, 2 * larger(reach_a, reach_b));
 }
 
 #endif
