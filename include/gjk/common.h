@@ -39,7 +39,7 @@ extern "C" {
 enum gjk_status {
     GJK_OK = 0,      /* the bracket is as tight as asked; no tolerance asked: as rounding allows, given the reach */
     GJK_DECIDED = 1, /* stopped early, the question being settled: a sign proven, or the cutoff passed */
-    GJK_FLOOR = 2,   /* rounding allows no more: the bracket is wider than asked, or straddles contact */
+    GJK_FLOOR = 2,   /* this arithmetic yields no more: the bracket is wider than asked, or straddles contact */
     GJK_LIMIT = 3,   /* stopped at max_steps */
     GJK_BAD_ARGUMENT =
         -1, /* a null pointer, a number that is negative or not finite, options without size or from the future */

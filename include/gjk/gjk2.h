@@ -50,8 +50,8 @@ typedef struct gjk2_shape {
 
 /* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
  * same pair. Poses and radii may change between queries, and one cache may meet other shapes: it then costs
- * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer:
- * zero the count after such an edit. */
+ * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer,
+ * the poses and radii inside a couple included: zero the count after such an edit. */
 typedef struct gjk2_cache {
     double a[3][2], b[3][2];     /* points of the two sets, in their own coordinates */
     double reach_a, reach_b;     /* of the two sets */
@@ -146,7 +146,7 @@ typedef struct gjk2_ball {
 GJK_API double gjk2_support_ball(const void *ball, const double dir[2], double point[2]);
 
 /* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
- * couples, never itself. */
+ * couples, never itself. A part of unknown reach costs four more calls each time. */
 typedef struct gjk2_couple {
     gjk2_shape a, b;
 } gjk2_couple;

@@ -51,8 +51,8 @@ typedef struct gjk2f_shape {
 
 /* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
  * same pair. Poses and radii may change between queries, and one cache may meet other shapes: it then costs
- * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer:
- * zero the count after such an edit. */
+ * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer,
+ * the poses and radii inside a couple included: zero the count after such an edit. */
 typedef struct gjk2f_cache {
     float a[3][2], b[3][2];     /* points of the two sets, in their own coordinates */
     float reach_a, reach_b;     /* of the two sets */
@@ -147,7 +147,7 @@ typedef struct gjk2f_ball {
 GJK_API float gjk2f_support_ball(const void *ball, const float dir[2], float point[2]);
 
 /* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
- * couples, never itself. */
+ * couples, never itself. A part of unknown reach costs four more calls each time. */
 typedef struct gjk2f_couple {
     gjk2f_shape a, b;
 } gjk2f_couple;

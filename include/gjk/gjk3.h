@@ -50,8 +50,8 @@ typedef struct gjk3_shape {
 
 /* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
  * same pair. Poses and radii may change between queries, and one cache may meet other shapes: it then costs
- * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer:
- * zero the count after such an edit. */
+ * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer,
+ * the poses and radii inside a couple included: zero the count after such an edit. */
 typedef struct gjk3_cache {
     double a[4][3], b[4][3];     /* points of the two sets, in their own coordinates */
     double reach_a, reach_b;     /* of the two sets */
@@ -169,7 +169,7 @@ typedef struct gjk3_disc {
 GJK_API double gjk3_support_disc(const void *disc, const double dir[3], double point[3]);
 
 /* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
- * couples, never itself. */
+ * couples, never itself. A part of unknown reach costs six more calls each time. */
 typedef struct gjk3_couple {
     gjk3_shape a, b;
 } gjk3_couple;

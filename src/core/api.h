@@ -97,7 +97,6 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         if (!warm) return FAULT;
         warm = 0;
     }
-    if (o->cache) remember(o->cache, q, a, b);
     return end;
 }
 
@@ -233,6 +232,7 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     if (end == FAULT || (probed && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     answer(q, a, b, g, upper, weight, r);
     enum end sharp = still ? sharpened(q, a, b, o, g, upper, weight, r) : FAULT;
+    if (o->cache) remember(o->cache, q, a, b);
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;

@@ -437,6 +437,7 @@ static void hand_back(const finish *f, search *q, real weight[DIM + 1])
     int e[DIM + 1], top = 0;
     vec v = rough(&f->way);
     clear(&q->s);
+    q->pending = 0;
     q->borrowed = 0;
     for (int i = 0; i < f->n; i++) {
         vertex *p = spare(&q->s);
