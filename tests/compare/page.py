@@ -277,10 +277,17 @@ def said(peer, example):
     return "says that they meet" if example["meet"] else "says that they do not meet"
 
 
+def is_short(row):
+    """Whether its example can be shown; a hull of hundreds of vertices can't."""
+    return len(json.dumps(row.get("example"))) <= 3000
+
+
 def examples(results):
     for peer in results.all_peers():
         rows = worst_rows(
-            [row for (_, _, name), row in results.theirs.items() if name == peer["name"] and not row["extreme"]]
+            row
+            for (_, _, name), row in results.theirs.items()
+            if name == peer["name"] and not row["extreme"] and is_short(row)
         )
         if not rows:
             continue
