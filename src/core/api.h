@@ -210,17 +210,17 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
     r->value = (value.high + (value.low + l.low)) * q->d.unscale;
 }
 
-/* The sharper answer where rounding stood in the way of the search's own, if there is a way to one: exact for known
- * corners, in double for float's smooth shapes. How it ended; FAULT: nothing is changed. */
-static enum end sharpened(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
-                          real weight[], result *r)
+/* Takes the answer further where rounding stood in its way: exactly for known corners, in double for float's smooth
+ * shapes. How that ended; FAULT: there was no need, or no way, and nothing is changed. */
+static enum end take_further(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
+                             real weight[], result *r)
 {
     if (g->exact) return EXACT && unanswered(q, r, o, g, upper) ? tighten(q, a, b, g, r, weight) : FAULT;
     int open = g->sign_only ? r->lower <= 0 && r->upper > 0 : wanting(r, o);
     return open ? ask_sister(q, a, b, o, g, r) : FAULT;
 }
 
-/* What both questions share: the cores' search, its bracket with the radii taken off, and the sharper answer. FAULT: a
+/* What both questions share: the cores' search, its bracket with the radii taken off, and what a finish adds. FAULT: a
  * support's answer was none, or the bounds cross. */
 static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
@@ -231,12 +231,12 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     int probed = still && (g->sign_only || !g->exact);
     if (end == FAULT || (probed && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     answer(q, a, b, g, upper, weight, r);
-    enum end sharp = still ? sharpened(q, a, b, o, g, upper, weight, r) : FAULT;
+    enum end further = still ? take_further(q, a, b, o, g, upper, weight, r) : FAULT;
     if (o->cache) remember(o->cache, q, a, b);
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
-    return sharp == FAULT ? end : sharp;
+    return further == FAULT ? end : further;
 }
 
 static int distance_status(const result *r, const options *o, enum end end, real rounding)
