@@ -20,13 +20,26 @@ static inline vec cross(vec a, vec b)
     return r;
 }
 
-/* The normal of a triangle with sides a and b, of squared lengths aa and bb. */
-static inline vec normal_of(vec a, vec b, real aa, real bb)
+/* Two sides of a triangle and its normal, with their squared lengths. */
+typedef struct sides {
+    vec a, b, n;
+    real aa, bb, nn;
+} sides;
+
+static inline sides sides_of(vec p, vec q, vec r)
 {
-    vec n = cross(a, b);
-    if (dot(n, n) > SLENDER * aa * bb) return n;
-    return aa > bb ? sub(n, mul(a, dot(n, a) / aa)) : sub(n, mul(b, dot(n, b) / bb));
+    sides t = {.a = sub(q, p), .b = sub(r, p)};
+    t.n = cross(t.a, t.b);
+    t.aa = dot(t.a, t.a);
+    t.bb = dot(t.b, t.b);
+    if (!(dot(t.n, t.n) > SLENDER * t.aa * t.bb))
+        t.n = sub(t.n, t.aa > t.bb ? mul(t.a, dot(t.n, t.a) / t.aa) : mul(t.b, dot(t.n, t.b) / t.bb));
+    t.nn = dot(t.n, t.n);
+    return t;
 }
+
+/* Not true of NaN, which sides of no length give. */
+static inline int has_normal(const sides *t) { return t->nn > NARROW * t->aa * t->bb; }
 
 /* A triangle so narrow that its normal is mostly noise: onto its longer side first, then across it. The weights are of
  * p, of the far end of the longer side, and of the remaining corner. */
@@ -46,24 +59,21 @@ static void across(vec p, vec along, vec aside, vec *v, real weight[3])
  * leeway. Weights of p, q, r. */
 static inline int face(vec p, vec q, vec r, real leeway, vec *v, real weight[3])
 {
-    vec a = sub(q, p), b = sub(r, p);
-    real aa = dot(a, a), bb = dot(b, b);
-    vec n = normal_of(a, b, aa, bb);
-    real nn = dot(n, n);
-    if (nn > NARROW * aa * bb) {
-        weight[1] = dot(n, cross(b, p));
-        weight[2] = dot(n, cross(p, a));
-        weight[0] = nn - weight[1] - weight[2];
-        *v = mul(n, dot(n, p) / nn);
-    } else if (!(aa > 0 && bb > 0)) {
+    sides t = sides_of(p, q, r);
+    if (has_normal(&t)) {
+        weight[1] = dot(t.n, cross(t.b, p));
+        weight[2] = dot(t.n, cross(p, t.a));
+        weight[0] = t.nn - weight[1] - weight[2];
+        *v = mul(t.n, dot(t.n, p) / t.nn);
+    } else if (!(t.aa > 0 && t.bb > 0)) {
         return 0;
-    } else if (aa > bb) {
-        across(p, a, b, v, weight);
+    } else if (t.aa > t.bb) {
+        across(p, t.a, t.b, v, weight);
     } else {
-        across(p, b, a, v, weight);
-        real t = weight[1];
+        across(p, t.b, t.a, v, weight);
+        real swap = weight[1];
         weight[1] = weight[2];
-        weight[2] = t;
+        weight[2] = swap;
     }
     real least = -leeway * (weight[0] + weight[1] + weight[2]);
     return weight[0] > least && weight[1] > least && weight[2] > least;
@@ -146,32 +156,26 @@ static vec nearest(simplex *s)
 static vec square_to(const simplex *s, vec v)
 {
     if (s->n != 2 && s->n != 3) return v;
-    vec a = sub(point(s, 1), point(s, 0)), b = s->n == 3 ? sub(point(s, 2), point(s, 0)) : a;
-    real aa = dot(a, a), bb = dot(b, b);
-    vec n = normal_of(a, b, aa, bb);
-    real nn = dot(n, n);
-    if (nn > NARROW * aa * bb) return mul(n, dot(n, v) / nn);
-    return aa > bb ? sub(v, mul(a, dot(v, a) / aa)) : sub(v, mul(b, dot(v, b) / bb));
+    sides t = sides_of(point(s, 0), point(s, 1), point(s, s->n - 1));
+    if (has_normal(&t)) return mul(t.n, dot(t.n, v) / t.nn);
+    return sub(v, t.aa > t.bb ? mul(t.a, dot(v, t.a) / t.aa) : mul(t.b, dot(v, t.b) / t.bb));
 }
 
 static void change(const simplex *s, vec way, real weight[4])
 {
-    vec p = point(s, 0), a = sub(point(s, 1), p), b = s->n > 2 ? sub(point(s, 2), p) : a;
-    real aa = dot(a, a), bb = dot(b, b);
-    vec n = normal_of(a, b, aa, bb);
-    real nn = dot(n, n);
+    sides t = sides_of(point(s, 0), point(s, 1), point(s, s->n > 2 ? 2 : 1));
     for (int i = 0; i < 4; i++) weight[i] = 0;
     if (s->n == 4) {
-        vec c = sub(point(s, 3), p);
-        real whole = dot(n, c);
-        weight[1] = dot(way, cross(b, c)) / whole;
-        weight[2] = dot(way, cross(c, a)) / whole;
-        weight[3] = dot(way, n) / whole;
-    } else if (nn > NARROW * aa * bb) {
-        weight[1] = dot(n, cross(way, b)) / nn;
-        weight[2] = dot(n, cross(a, way)) / nn;
+        vec c = sub(point(s, 3), point(s, 0));
+        real whole = dot(t.n, c);
+        weight[1] = dot(way, cross(t.b, c)) / whole;
+        weight[2] = dot(way, cross(c, t.a)) / whole;
+        weight[3] = dot(way, t.n) / whole;
+    } else if (has_normal(&t)) {
+        weight[1] = dot(t.n, cross(way, t.b)) / t.nn;
+        weight[2] = dot(t.n, cross(t.a, way)) / t.nn;
     } else if (s->n > 1) {
-        weight[aa < bb ? 2 : 1] = aa < bb ? dot(way, b) / bb : dot(way, a) / aa;
+        weight[t.aa < t.bb ? 2 : 1] = t.aa < t.bb ? dot(way, t.b) / t.bb : dot(way, t.a) / t.aa;
     }
     weight[0] = -weight[1] - weight[2] - weight[3];
 }
