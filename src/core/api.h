@@ -122,7 +122,14 @@ static void bracket(result *r, const difference *d, real lower, real upper, real
     if (d->wild && size(far) < REAL_MIN) r->upper += 2 * TINY;
 }
 
-/* The body's point in the caller's frame; at its edge where that ends before the body does. */
+/* At the edge of the numbers where these end before the body does. */
+static vec in_range(vec x)
+{
+    EACH(x.c[i] = larger(smaller(x.c[i], REAL_MAX), -REAL_MAX));
+    return x;
+}
+
+/* The body's point in the caller's frame. */
 static vec witness_of(const body *k, const pose *o, const simplex *s, const real weight[], size_t member,
                       const difference *d)
 {
@@ -130,9 +137,7 @@ static vec witness_of(const body *k, const pose *o, const simplex *s, const real
     if (!k->posed) return mul(x, d->unscale);
     vec p = load(o->p), from = mul(p, d->scale);
     x = map(k->m, x);
-    x = bounded(peak(from)) ? mul(add(x, from), d->unscale) : add(mul(x, d->unscale), p);
-    EACH(x.c[i] = larger(smaller(x.c[i], REAL_MAX), -REAL_MAX));
-    return x;
+    return in_range(bounded(peak(from)) ? mul(add(x, from), d->unscale) : add(mul(x, d->unscale), p));
 }
 
 /* The witnesses, from the cores' to the shapes': each moves toward the other by its radius, or, where the radii reach
@@ -151,8 +156,8 @@ static void witness(result *r, const search *q, const real weight[], const shape
         on_a = add(on_a, mul(toward_b, a->radius));
         on_b = sub(on_b, mul(toward_b, b->radius));
     }
-    store(r->point_a, on_a);
-    store(r->point_b, on_b);
+    store(r->point_a, in_range(on_a));
+    store(r->point_b, in_range(on_b));
 }
 
 /* The search has ended at what rounding can tell, and that is not enough: the sign is open; or so near to contact the

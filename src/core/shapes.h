@@ -265,9 +265,9 @@ static vec seen_by(const pose *p, real grows, vec dir)
 {
     vec d = levelled(dir);
     real lift = 16 / leveler(peak(dir));
-    if (p && grows > 0) {
-        d = levelled(pull(p->m, mul(d, leveler(grows))));
-        lift *= 1 / leveler(grows);
+    if (p) {
+        if (grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
+        lift = grows > 0 ? lift / leveler(grows) : 0;
     }
     return mul(d, smaller(larger(lift, 1), LIFT));
 }

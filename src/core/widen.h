@@ -93,6 +93,13 @@ static real rounded_down(double x)
     return (double)r > x ? lower_neighbour(r) : r;
 }
 
+/* A coordinate may lie beyond all floats. */
+static real rounded_to_range(double x)
+{
+    double most = (double)REAL_MAX;
+    return (real)(x > most ? most : x < -most ? -most : x);
+}
+
 /* Half of what was asked for, since the bounds are rounded once more, and no more digits than float can show. */
 static sister(options) sister_options(const options *o, const search *q)
 {
@@ -123,8 +130,8 @@ static APART enum end ask_sister(search *q, const shape *a, const shape *b, cons
     }
     if (upper < r->upper) {
         r->upper = upper;
-        for (int i = 0; i < DIM; i++) r->point_a[i] = (real)hers.point_a[i];
-        for (int i = 0; i < DIM; i++) r->point_b[i] = (real)hers.point_b[i];
+        for (int i = 0; i < DIM; i++) r->point_a[i] = rounded_to_range(hers.point_a[i]);
+        for (int i = 0; i < DIM; i++) r->point_b[i] = rounded_to_range(hers.point_b[i]);
     }
     q->steps += hers.steps;
     q->d.calls += hers.supports;
