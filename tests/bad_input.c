@@ -482,7 +482,7 @@ static void bad_couples(void **state)
     static body part[2];
     (void)state;
     for (int kind = SUM; kind <= HULL; kind++) {
-        for (int bad = 0; bad < 5; bad++) {
+        for (int bad = 0; bad < 6; bad++) {
             for (int at = 0; at < 2; at++) {
                 fresh(NULL);
                 part[0] = a;
@@ -500,6 +500,9 @@ static void bad_couples(void **state)
                     part[at].shape.radius = -1;
                 } else if (bad == 3) {
                     part[at].shape.radius = (real)NAN;
+                } else if (bad == 4) {
+                    fake.reach = 1;
+                    part[at].shape.support = silent_support;
                 } else {
                     part[at].pose.p[1] = (real)INFINITY;
                 }

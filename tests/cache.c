@@ -191,6 +191,38 @@ static void of_a_cloud_edited(void **state)
     assert_true((quad)r.lower * (quad)r.lower <= 2 && 2 <= (quad)r.upper * (quad)r.upper);
 }
 
+static real cube_of_unknown_reach(const void *data, const real *dir, real *point)
+{
+    (void)data;
+    for (int i = 0; i < DIM; i++) {
+        point[i] = dir[i] < 0 ? -1 : 1;
+    }
+    return 0;
+}
+
+/* A reach found with slack is as large as that, and so were the brackets of later queries without. */
+static void after_slack(void **state)
+{
+    body a, b;
+    V(options) o = default_options();
+    V(result) cold, r;
+    (void)state;
+    start_cache();
+    start_body(&a, ORIGIN);
+    start_body(&b, ORIGIN);
+    bind(&a);
+    bind(&b);
+    a.shape.support = cube_of_unknown_reach;
+    b.pose.p[0] = 5;
+    assert_int_equal(V(distance)(&a.shape, &b.shape, NULL, &cold), GJK_OK);
+    o.cache = &cache;
+    for (o.slack = (real)1e6; o.slack >= 0; o.slack -= (real)1e6) {
+        assert_true(V(distance)(&a.shape, &b.shape, &o, &r) >= 0);
+        assert_true(r.lower <= 4 && r.upper >= 4);
+    }
+    assert_true(r.upper - r.lower <= 2 * (cold.upper - cold.lower));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -201,6 +233,7 @@ int main(void)
         cmocka_unit_test(of_garbage),
         cmocka_unit_test(after_errors),
         cmocka_unit_test(of_a_cloud_edited),
+        cmocka_unit_test(after_slack),
     };
     return cmocka_run_group_tests_name("caches of " VARIANT, tests, NULL, NULL);
 }

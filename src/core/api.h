@@ -46,7 +46,8 @@ static void remember(cache *k, const search *q, const shape *a, const shape *b)
 {
     int n = q->s.n, lent = 1;
     for (int i = 0; i < n; i++) lent &= (int)(q->borrowed >> q->s.at[i] & 1);
-    if (lent && q->repeated) return;     /* nothing new: the cache may hold more than this simplex */
+    if (lent && q->repeated) return; /* nothing new: the cache may hold more than this simplex */
+    if (q->d.loose) return;
     if (q->pending && !q->repeated) n++; /* the corner in the spare slot: the next query may be answered with it */
     for (int i = 0; i < n; i++) {
         store(k->a[i], corner(&q->s, i)->x);

@@ -39,6 +39,7 @@ typedef struct difference {
     real doubt;          /* rounding, as derived above */
     real slack;          /* what the supports may fall short beyond that, by the caller's word */
     int wild;            /* sizes so large or small that directions need care */
+    int loose;           /* a reach was surveyed with slack, which makes it none for other queries */
     int calls;
 } difference;
 
@@ -107,6 +108,7 @@ static inline int ask(difference *d, vec v, vertex *p, real reach[2])
 static int measure(difference *d, body *k, real said, real slack)
 {
     if (said == 0) d->calls += SURVEY_CALLS;
+    if (said == 0 && slack > 0) d->loose = 1;
     k->reach = said == 0 ? surveyed(k->support, k->data, slack) : said;
     return k->reach <= REAL_MAX;
 }
@@ -179,6 +181,7 @@ static int start(difference *d, const shape *a, const shape *b)
     }
     d->scale = 1;
     d->wild = 1; /* until known better */
+    d->loose = 0;
     return bounded(d->a.stretch) && bounded(d->b.stretch);
 }
 

@@ -285,7 +285,9 @@ static real support_of(const shape *s, vec dir, vec *out)
     if (p) *out = add(map(p->m, *out), load(p->p));
     if (s->radius > 0) *out = add(*out, along(dir, s->radius));
     if (reach == 0) reach = surveyed(s->support, s->data, 0);
-    if (!(reach > 0)) return (real)NAN;
+    int found = reach > 0;
+    EACH(found &= bounded(out->c[i]));
+    if (!found) return (real)NAN;
     if (faint(reach)) reach += 16 * REAL_MIN;
     return (p ? 4 * (grows * reach) + spread(load(p->p)) : reach) + s->radius + 64 * TINY;
 }
