@@ -163,14 +163,17 @@ static void witness(result *r, const search *q, const real weight[], const shape
 
 /* The search has ended at what rounding can tell, and that is not enough: the sign is open; or so near to contact the
  * way of v is noise; or the caller asks for all digits, or gets fewer than rounding explains, or a corner that promised
- * to be nearer was not. */
-static int unanswered(const search *q, const result *r, const options *o, const goal *g, real upper)
+ * to be nearer was not; or the weights of a thin full simplex miss the origin. */
+static int unanswered(const search *q, const result *r, const options *o, const goal *g, real upper,
+                      const real weight[])
 {
     real near = g->radius * q->d.scale, margin = (real)(g->sign_only ? 8 : 32) * q->d.doubt + 16 * UNIT * near;
     if (r->lower <= 0 && r->upper > 0) return 1;
     if (g->sign_only && r->lower > 0) return 0;
     if (q->lower <= near + margin && upper >= near - margin) return 1;
-    return !g->sign_only && r->upper > 0 && (o->tight || q->stuck || coarse(q, upper));
+    if (g->sign_only) return 0;
+    if (r->upper <= 0) return q->s.n > DIM && peak(blend(&q->s, weight, offsetof(vertex, w), 1)) > 8 * UNIT;
+    return o->tight || q->stuck || coarse(q, upper);
 }
 
 /* The bracket of the distance is wider than asked. */
@@ -221,7 +224,7 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
 static enum end take_further(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
                              real weight[], result *r)
 {
-    if (g->exact) return EXACT && unanswered(q, r, o, g, upper) ? tighten(q, a, b, g, r, weight) : FAULT;
+    if (g->exact) return EXACT && unanswered(q, r, o, g, upper, weight) ? tighten(q, a, b, g, r, weight) : FAULT;
     int open = g->sign_only ? r->lower <= 0 && r->upper > 0 : wanting(r, o);
     return open ? ask_sister(q, a, b, o, g, r) : FAULT;
 }

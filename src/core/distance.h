@@ -142,17 +142,17 @@ static int sharpen(search *q, const real weight[DIM + 1])
     return 1;
 }
 
-/* |v| to more digits than one number can say, measured along v: what the weights are off moves the corner that they
- * single out across v, and so counts for nothing. */
+/* |v| to more digits than one number can say: the height of the corner that the weights single out, along v made square
+ * to the simplex. What the weights are off moves that corner across v, and so counts for nothing. */
 static twin refine(const search *q, const real weight[DIM + 1])
 {
-    vec w_low, w = single_out(q, weight, &w_low);
-    real l = root(q->vv);
+    vec w_low, w = single_out(q, weight, &w_low), v = square_to(&q->s, add(w, w_low));
+    real l = length(v);
     if (!(l > 0)) return (twin){0, 0};
-    twin along = {0, dot(q->v, w_low)}, square = product_of(-l, l);
+    twin along = {0, dot(v, w_low)}, square = product_of(-l, l);
     for (int i = 0; i < DIM; i++) {
-        gather(&along, product_of(q->v.c[i], w.c[i]));
-        gather(&square, product_of(q->v.c[i], q->v.c[i]));
+        gather(&along, product_of(v.c[i], w.c[i]));
+        gather(&square, product_of(v.c[i], v.c[i]));
     }
     real height = along.high / l; /* l is short by square / 2 l: so is the quotient too large */
     twin back = product_of(-height, l);
