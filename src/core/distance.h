@@ -243,7 +243,7 @@ static inline enum end consider(search *q, const goal *g)
         for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), last);
         if (q->repeated) return STILL;
         if (!(gap > noise)) {
-            q->stuck = g->exact && !g->sign_only && fine_gap(q, last) > (real)(q->s.n == 1 ? 1 : 4) * noise;
+            q->stuck = g->exact && !g->sign_only && fine_gap(q, last) > (real)(q->s.n <= 2 ? 1 : 4) * noise;
             return STILL;
         }
     }
