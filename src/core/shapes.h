@@ -73,16 +73,17 @@ GJK_API real pub(points_reach)(const points *p)
     return padded(root(sum) / level);
 }
 
-/* A point that is higher than the best one for certain, if there is any among those of almost its height: of points
- * that lie close together far from their origin, their differences tell. */
-static size_t settle_tie(const real *v, size_t n, size_t step, vec d, size_t best, real almost)
+/* A point that is higher than the best one, if there is any among those of almost its height: of points that lie close
+ * together far from their origin, their differences tell. A rise of which rounding leaves even the sign open counts
+ * where it can't be wrong by more than 2 units of the reach, which heights leave of the licence. */
+static size_t settle_tie(const real *v, size_t n, size_t step, real reach, vec d, size_t best, real almost)
 {
     vec top = load(v + best * step);
-    real highest = 0;
+    real highest = 0, leave = 2 * UNIT * reach * peak(d);
     for (size_t i = 0; i < n; i++) {
         vec x = load(v + i * step), e = sub(x, top);
-        real rise = dot(e, d);
-        if (!(dot(x, d) >= almost) || !(rise > highest) || !(rise > 4 * UNIT * dot_size(e, d))) continue;
+        real rise = dot(e, d), doubt = 4 * UNIT * dot_size(e, d);
+        if (!(dot(x, d) >= almost) || !(rise > highest) || !(rise > doubt || doubt <= leave)) continue;
         highest = rise;
         best = i;
     }
@@ -108,7 +109,7 @@ static inline size_t farthest_among(const real *v, size_t n, size_t step, real r
     }
     if (!(sum == 0)) return n;
     real almost = highest - 8 * UNIT * reach * spread(d);
-    return second >= almost ? settle_tie(v, n, step, d, best, almost) : best;
+    return second >= almost ? settle_tie(v, n, step, reach, d, best, almost) : best;
 }
 
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
