@@ -71,6 +71,11 @@ def test_shapes_have_their_numbers(scene):
         assert all((s >= 0).all() for s in sizes)
 
 
+@pytest.mark.parametrize("name", SCENES)
+def test_every_answer_holds_the_truth(name, tmp_path):
+    subprocess.run([sys.executable, "-m", "gjk", "report", HERE / f"{name}.json", "--out", tmp_path], check=True)
+
+
 def test_floats_hold_every_number_exactly(scene):
     numbers = [np.ravel(value) for shape in shapes(scene) for key, value in shape.items() if key != "shape"]
     numbers += [body["pose"] for body in scene["bodies"]]

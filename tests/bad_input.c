@@ -98,6 +98,7 @@ static void ready_made_without_data(void **state)
         V(support_box),
         V(support_segment),
         V(support_ball),
+        V(support_ellipsoid),
         V(support_sum),
         V(support_hull),
 #if DIM == 3
@@ -178,6 +179,7 @@ static void sizes(void **state)
     (void)state;
     for (int i = 0; i < DIM; i++) {
         sizes_of(BOX, &a.half[i], 1);
+        sizes_of(ELLIPSOID, &a.half[i], 1);
     }
     sizes_of(BALL, &a.radius, 1);
 #if DIM == 3
@@ -197,9 +199,9 @@ static void sizes(void **state)
 
 static void sizes_of_0(void **state)
 {
-    static const enum kind kinds[] = {BOX, BALL, CYLINDER, CONE, DISC, SEGMENT, TRIANGLE};
+    static const enum kind kinds[] = {BOX, BALL, ELLIPSOID, CYLINDER, CONE, DISC, SEGMENT, TRIANGLE};
     (void)state;
-    for (int k = 0; k < 7; k++) {
+    for (int k = 0; k < 8; k++) {
         if (DIM == 2 && (kinds[k] == CYLINDER || kinds[k] == CONE || kinds[k] == DISC || kinds[k] == TRIANGLE)) {
             continue;
         }
@@ -639,7 +641,7 @@ static void older_options(void **state)
 
 static void tight(void **state)
 {
-    static const enum kind kinds[] = {POINTS, BOX, SEGMENT, TRIANGLE, BALL, CYLINDER, CONE, DISC, ORIGIN};
+    static const enum kind kinds[] = {POINTS, BOX, SEGMENT, TRIANGLE, BALL, CYLINDER, CONE, DISC, ORIGIN, ELLIPSOID};
     static const uint32_t others[] = {2, 3, 255, 256, 0x80000000u, 0x80000001u, UINT32_MAX};
     V(options) o = default_options();
     (void)state;

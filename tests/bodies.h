@@ -19,7 +19,8 @@ enum kind {
     ORIGIN,
     SUM,
     HULL,
-    CLOUD /* points by the thousand, which stay where they are when the body is copied */
+    CLOUD, /* points by the thousand, which stay where they are when the body is copied */
+    ELLIPSOID
 };
 
 typedef struct body {
@@ -27,7 +28,7 @@ typedef struct body {
     int count;                  /* of points */
     real v[MAX_POINTS][DIM];    /* points, segment, triangle */
     const real *cloud;          /* cloud: its coordinates, point by point */
-    real half[DIM];             /* box */
+    real half[DIM];             /* box, ellipsoid */
     real radius, half_length;   /* ball, cylinder, cone, disc; the rounding is shape.radius */
     const struct body *part[2]; /* sum, hull */
     V(pose) pose;
@@ -37,6 +38,7 @@ typedef struct body {
         V(box) box;
         V(segment) segment;
         V(ball) ball;
+        V(ellipsoid) ellipsoid;
         V(couple) couple;
 #if DIM == 3
         V(triangle) triangle;
@@ -97,6 +99,10 @@ static inline void bind(body *b)
         b->shape.support = V(support_ball);
         b->set.ball.radius = b->radius;
         break;
+    case ELLIPSOID:
+        b->shape.support = V(support_ellipsoid);
+        memcpy(b->set.ellipsoid.radii, b->half, sizeof b->half);
+        break;
     case ORIGIN:
         b->shape.support = V(support_origin);
         b->shape.data = NULL;
@@ -154,8 +160,8 @@ static inline void print_points(FILE *f, const body *b)
 /* As in the case files. */
 static inline void print_body(FILE *f, const body *b)
 {
-    static const char *const name[] = {"points", "box",       "segment", "triangle", "cylinder", "cone",
-                                       "disc",   "ellipsoid", "points",  "sum",      "hull",     "points"};
+    static const char *const name[] = {"points",    "box",    "segment", "triangle", "cylinder", "cone",     "disc",
+                                       "ellipsoid", "points", "sum",     "hull",     "points",   "ellipsoid"};
     real rows[DIM * (DIM + 1)];
     fprintf(f, "{\"shape\": \"%s\"", name[b->kind]);
     if (b->kind == POINTS || b->kind == CLOUD) {
@@ -178,6 +184,9 @@ static inline void print_body(FILE *f, const body *b)
         real radii[3] = {b->radius, b->radius, b->radius};
         fprintf(f, ", \"radii\": ");
         print_numbers(f, radii, DIM);
+    } else if (b->kind == ELLIPSOID) {
+        fprintf(f, ", \"radii\": ");
+        print_numbers(f, b->half, DIM);
     } else {
         fprintf(f, ", \"r\": %.17g, \"half_length\": %.17g", (double)b->radius, (double)b->half_length);
     }

@@ -35,10 +35,10 @@ typedef struct case_bodies {
 
 static inline const body *body_of(case_bodies *all, const case_shape *s)
 {
-    static const enum kind kinds[] = {[K(ORIGIN)] = ORIGIN,     [K(POINTS)] = POINTS,     [K(BOX)] = BOX,
-                                      [K(SEGMENT)] = SEGMENT,   [K(TRIANGLE)] = TRIANGLE, [K(BALL)] = BALL,
-                                      [K(CYLINDER)] = CYLINDER, [K(CONE)] = CONE,         [K(DISC)] = DISC,
-                                      [K(SUM)] = SUM,           [K(HULL)] = HULL};
+    static const enum kind kinds[] = {[K(ORIGIN)] = ORIGIN,       [K(POINTS)] = POINTS,     [K(BOX)] = BOX,
+                                      [K(SEGMENT)] = SEGMENT,     [K(TRIANGLE)] = TRIANGLE, [K(BALL)] = BALL,
+                                      [K(ELLIPSOID)] = ELLIPSOID, [K(CYLINDER)] = CYLINDER, [K(CONE)] = CONE,
+                                      [K(DISC)] = DISC,           [K(SUM)] = SUM,           [K(HULL)] = HULL};
     body *b = &all->b[all->used++];
     if (all->used > MOST_BODIES || s->count > MAX_POINTS) {
         fail_msg("a case is too large for its bodies");
@@ -47,7 +47,7 @@ static inline const body *body_of(case_bodies *all, const case_shape *s)
     b->count = b->kind == POINTS ? (int)s->count : b->kind == SEGMENT ? 2 : b->kind == TRIANGLE ? 3 : 0;
     if (b->count) {
         memcpy(b->v, s->numbers, (size_t)b->count * sizeof b->v[0]);
-    } else if (b->kind == BOX) {
+    } else if (b->kind == BOX || b->kind == ELLIPSOID) {
         memcpy(b->half, s->numbers, sizeof b->half);
     } else if (b->kind >= CYLINDER && b->kind <= BALL) {
         b->radius = s->numbers[0];

@@ -106,6 +106,19 @@ static void farthest_of_set(const body *b, const quad *dir, quad *point)
             point[i] = n > 0 ? (quad)b->radius * dir[i] / n : 0;
         }
         return;
+    case ELLIPSOID:
+        for (int i = 0; i < DIM; i++) {
+            other[i] = (quad)b->half[i] * dir[i];
+            best = quad_abs(other[i]) > best ? quad_abs(other[i]) : best;
+        }
+        for (int i = 0; i < DIM && best > 0; i++) {
+            other[i] /= best;
+        }
+        n = norm(other);
+        for (int i = 0; i < DIM; i++) {
+            point[i] = n > 0 ? (quad)b->half[i] * other[i] / n : 0;
+        }
+        return;
 #if DIM == 3
     case CYLINDER:
         rim((quad)b->radius, dir, point);

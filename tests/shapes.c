@@ -40,14 +40,30 @@ static void quad_direction(const real *dir, quad *out)
     }
 }
 
+/* How far the ellipsoid's point is at most from where its ray leaves the set. The grain, what underflow may have added
+ * to a coordinate, is taken off first: of a radius hardly larger it is too great a share. */
+static quad beyond_ellipsoid(const body *b, const quad *x, quad grain)
+{
+    quad y[DIM], off[DIM], ratio[DIM], q;
+    for (int i = 0; i < DIM; i++) {
+        y[i] = positive(quad_abs(x[i]) - grain);
+        off[i] = quad_abs(x[i]) - y[i];
+        ratio[i] = y[i] > 0 ? y[i] / (quad)b->half[i] : 0; /* infinite where the set is flat */
+    }
+    q = norm(ratio);
+    return norm(off) + (q > 1 ? norm(y) * (1 - 1 / q) : 0);
+}
+
 /* A point of each set that lies nearest to x tells whether x is in it; here, how far out of it x is. */
-static quad outside(const body *b, const quad *x)
+static quad outside(const body *b, const quad *x, quad grain)
 {
     quad flat = DIM == 3 ? quad_sqrt(x[0] * x[0] + x[1] * x[1]) : 0, r = (quad)b->radius, h = (quad)b->half_length;
     quad z = x[DIM - 1], off = 0;
     switch (b->kind) {
     case BALL:
         return positive(norm(x) - r);
+    case ELLIPSOID:
+        return beyond_ellipsoid(b, x, grain);
     case DISC:
         return positive(flat - r) + quad_abs(z);
     case CYLINDER:
@@ -80,7 +96,7 @@ static void check_direction(const body *b, const real *dir, double unit_of, real
     real point[DIM], reach = b->shape.support(b->shape.data, dir, point);
     body small = *b;
     quad d[DIM], x[DIM], best[DIM], length, short_by = 0, r = (quad)reach / (quad)unit_of;
-    quad licence = r * LICENCE * (quad)U + 8 * (quad)REAL_MIN * (quad)REAL_EPSILON / (quad)unit_of;
+    quad grain = (quad)REAL_MIN * (quad)REAL_EPSILON / (quad)unit_of, licence = r * LICENCE * (quad)U + 8 * grain, out;
     assert_true(reach >= 0 && reach <= REAL_MAX);
     assert_true(*reach_before == -1 || reach == *reach_before);
     *reach_before = reach;
@@ -101,9 +117,10 @@ static void check_direction(const body *b, const real *dir, double unit_of, real
     for (int i = 0; i < DIM; i++) {
         short_by += d[i] * (best[i] - x[i]) / length;
     }
-    if (!(short_by <= licence && norm(x) <= r && norm(best) <= r && outside(&small, x) <= licence)) {
+    out = outside(&small, x, grain);
+    if (!(short_by <= licence && norm(x) <= r && norm(best) <= r && out <= licence)) {
         print_error("short by %g, out by %g, reach %g, length %g; dir", (double)(short_by / (r * (quad)U)),
-                    (double)(outside(&small, x) / (r * (quad)U)), (double)r, (double)norm(x));
+                    (double)(out / (r * (quad)U)), (double)r, (double)norm(x));
         print_numbers(stderr, dir, DIM);
         print_error("\n  ");
         print_body(stderr, b);
@@ -170,12 +187,121 @@ KIND(points, POINTS)
 KIND(box, BOX)
 KIND(segment, SEGMENT)
 KIND(ball, BALL)
+KIND(ellipsoid, ELLIPSOID)
 #if DIM == 3
 KIND(triangle, TRIANGLE)
 KIND(cylinder, CYLINDER)
 KIND(cone, CONE)
 KIND(disc, DISC)
 #endif
+
+/* Of any size a number can have; in every third, such that the radii times it are of like size. */
+static void draw_any_direction(draws *d, int n, const body *b, real dir[DIM])
+{
+    const int least = sizeof(real) == 8 ? -1074 : -149, most = sizeof(real) == 8 ? 1023 : 127;
+    double x[DIM], low = 0;
+    int common = least + below(d, most - least + 1), zero = 0;
+    unit(d, x);
+    for (int i = 0; i < DIM; i++) {
+        double half = (double)b->half[i];
+        low = half > 0 && (low == 0 || half < low) ? half : low;
+    }
+    for (int i = 0; i < DIM; i++) {
+        int exponent = n % 3 == 0 ? least + below(d, most - least + 1) : common;
+        if (n % 3 == 1 && b->half[i] > 0) {
+            x[i] *= low / (double)b->half[i];
+        }
+        dir[i] = below(d, 8) ? (real)ldexp(x[i], exponent) : 0;
+        zero += dir[i] == 0;
+    }
+    if (zero == DIM) {
+        dir[below(d, DIM)] = (real)ldexp(1, common);
+    }
+}
+
+/* Axes of any ratio, flat ones, subnormal ones, along directions of any size. */
+static void thin_ellipsoids(void **state)
+{
+    static const double ratio[] = {0, 1, 1e-6, 1e-30, sizeof(real) == 8 ? 1e-300 : 1e-36};
+    const int least = sizeof(real) == 8 ? -1070 : -145, most = sizeof(real) == 8 ? 1023 : 127;
+    (void)state;
+    for (uint64_t i = 0; i < 6000; i++) {
+        draws d = draws_from(6, 0, i);
+        body b;
+        real dir[DIM], reach = -1;
+        int near_the_end = below(&d, 40), anywhere = least + below(&d, most - least + 1);
+        int e = i % 4 == 0 ? least + near_the_end : i % 4 == 1 ? most - near_the_end : i % 4 == 2 ? 0 : anywhere;
+        double by = ldexp(1, e);
+        start_body(&b, ELLIPSOID);
+        for (int k = 0; k < DIM; k++) {
+            b.half[k] = (real)(between(&d, 0.5, 1.9) * ratio[below(&d, 5)]);
+        }
+        scale_body(&b, by);
+        bind(&b);
+        for (int n = 0; n < 12; n++) {
+            draw_any_direction(&d, n, &b, dir);
+            check_direction(&b, dir, by, &reach);
+        }
+    }
+}
+
+/* No direction at all: any point of the set will do. */
+static void ellipsoid_along_nothing(void **state)
+{
+    real dir[DIM] = {0}, point[DIM];
+    body b;
+    (void)state;
+    start_body(&b, ELLIPSOID);
+    for (int round = 0; round < 2; round++) {
+        bind(&b);
+        assert_true(b.shape.support(b.shape.data, dir, point) > 0);
+        for (int i = 0; i < DIM; i++) {
+            assert_true(point[i] == 0);
+            b.half[i] = 1;
+        }
+    }
+}
+
+/* The ball of radius 1 under a pose that stretches, as an ellipsoid: the columns of the pose brought to size 1 by
+ * powers of two, the radii those powers. The same set to the bit. */
+static void to_ellipsoid(body *b)
+{
+    b->kind = ELLIPSOID;
+    for (int j = 0; j < DIM; j++) {
+        double most = 0;
+        int e;
+        for (int i = 0; i < DIM; i++) {
+            most = fmax(most, fabs((double)b->pose.m[i * DIM + j]));
+        }
+        frexp(most, &e);
+        b->half[j] = (real)ldexp(1, e);
+        for (int i = 0; i < DIM; i++) {
+            b->pose.m[i * DIM + j] = (real)ldexp((double)b->pose.m[i * DIM + j], -e);
+        }
+    }
+}
+
+/* Told either way, the set has one truth, and in float the answer is finished in double all the same. */
+static void ellipsoids_as_balls(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 3000; i++) {
+        draws d = draws_from(7, 0, i);
+        pair p, q;
+        V(result) r, s;
+        draw_pair(&d, ELLIPSOIDS, &p);
+        q = p;
+        to_ellipsoid(&q.a);
+        bind_pair(&q);
+        bind_pair(&p);
+        assert_true(V(distance)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+        assert_true(V(distance)(&q.a.shape, &q.b.shape, NULL, &s) >= 0);
+        assert_true(r.lower <= s.upper && s.lower <= r.upper);
+        assert_true(s.upper - s.lower <= 8 * (r.upper - r.lower));
+        assert_true(V(intersect)(&q.a.shape, &q.b.shape, NULL, &s) >= 0);
+        assert_true(s.lower <= r.upper && (r.lower <= 0 || s.upper >= r.lower));
+    }
+}
 
 static void origin(void **state)
 {
@@ -277,6 +403,10 @@ int main(void)
         cmocka_unit_test(box),
         cmocka_unit_test(segment),
         cmocka_unit_test(ball),
+        cmocka_unit_test(ellipsoid),
+        cmocka_unit_test(thin_ellipsoids),
+        cmocka_unit_test(ellipsoid_along_nothing),
+        cmocka_unit_test(ellipsoids_as_balls),
         cmocka_unit_test(origin),
 #if DIM == 3
         cmocka_unit_test(triangle),

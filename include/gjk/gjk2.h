@@ -110,7 +110,7 @@ GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
  * a set without points, comes back as GJK_BAD_SUPPORT. A disc, a capsule or a rounded box is cheapest as
- * origin, segment or box with a radius in its shape; an ellipse is a ball under a pose that stretches. */
+ * origin, segment or box with a radius in its shape. */
 
 /* The convex hull of a point cloud. */
 typedef struct gjk2_points {
@@ -144,6 +144,13 @@ typedef struct gjk2_ball {
     double radius;
 } gjk2_ball;
 GJK_API double gjk2_support_ball(const void *ball, const double dir[2], double point[2]);
+
+/* An ellipse, (x / radii[0])^2 + (y / radii[1])^2 <= 1; where a radius is 0, so is that coordinate. A ball under a
+ * pose that stretches is an ellipse too, but radii that are multiplied into a rotation are rounded. */
+typedef struct gjk2_ellipsoid {
+    double radii[2];
+} gjk2_ellipsoid;
+GJK_API double gjk2_support_ellipsoid(const void *ellipsoid, const double dir[2], double point[2]);
 
 /* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
  * couples, never itself. A part of unknown reach costs four more calls each time. */

@@ -111,7 +111,7 @@ GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gj
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
  * a set without points, comes back as GJK_BAD_SUPPORT. A disc, a capsule or a rounded box is cheapest as
- * origin, segment or box with a radius in its shape; an ellipse is a ball under a pose that stretches. */
+ * origin, segment or box with a radius in its shape. */
 
 /* The convex hull of a point cloud. */
 typedef struct gjk2f_points {
@@ -145,6 +145,13 @@ typedef struct gjk2f_ball {
     float radius;
 } gjk2f_ball;
 GJK_API float gjk2f_support_ball(const void *ball, const float dir[2], float point[2]);
+
+/* An ellipse, (x / radii[0])^2 + (y / radii[1])^2 <= 1; where a radius is 0, so is that coordinate. A ball under a
+ * pose that stretches is an ellipse too, but radii that are multiplied into a rotation are rounded. */
+typedef struct gjk2f_ellipsoid {
+    float radii[2];
+} gjk2f_ellipsoid;
+GJK_API float gjk2f_support_ellipsoid(const void *ellipsoid, const float dir[2], float point[2]);
 
 /* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
  * couples, never itself. A part of unknown reach costs four more calls each time. */

@@ -110,7 +110,7 @@ GJK_API int gjk3_intersect(const gjk3_shape *a, const gjk3_shape *b, const gjk3_
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
  * a set without points, comes back as GJK_BAD_SUPPORT. A ball, a capsule or a rounded box is cheapest as
- * origin, segment or box with a radius in its shape; an ellipsoid is a ball under a pose that stretches. */
+ * origin, segment or box with a radius in its shape. */
 
 /* The convex hull of a point cloud. */
 typedef struct gjk3_points {
@@ -149,6 +149,13 @@ typedef struct gjk3_ball {
     double radius;
 } gjk3_ball;
 GJK_API double gjk3_support_ball(const void *ball, const double dir[3], double point[3]);
+
+/* (x / radii[0])^2 + (y / radii[1])^2 + (z / radii[2])^2 <= 1; where a radius is 0, so is that coordinate. A ball
+ * under a pose that stretches is an ellipsoid too, but radii that are multiplied into a rotation are rounded. */
+typedef struct gjk3_ellipsoid {
+    double radii[3];
+} gjk3_ellipsoid;
+GJK_API double gjk3_support_ellipsoid(const void *ellipsoid, const double dir[3], double point[3]);
 
 /* x^2 + y^2 <= radius^2, |z| <= half_length */
 typedef struct gjk3_cylinder {

@@ -111,7 +111,7 @@ GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gj
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
  * a set without points, comes back as GJK_BAD_SUPPORT. A ball, a capsule or a rounded box is cheapest as
- * origin, segment or box with a radius in its shape; an ellipsoid is a ball under a pose that stretches. */
+ * origin, segment or box with a radius in its shape. */
 
 /* The convex hull of a point cloud. */
 typedef struct gjk3f_points {
@@ -150,6 +150,13 @@ typedef struct gjk3f_ball {
     float radius;
 } gjk3f_ball;
 GJK_API float gjk3f_support_ball(const void *ball, const float dir[3], float point[3]);
+
+/* (x / radii[0])^2 + (y / radii[1])^2 + (z / radii[2])^2 <= 1; where a radius is 0, so is that coordinate. A ball
+ * under a pose that stretches is an ellipsoid too, but radii that are multiplied into a rotation are rounded. */
+typedef struct gjk3f_ellipsoid {
+    float radii[3];
+} gjk3f_ellipsoid;
+GJK_API float gjk3f_support_ellipsoid(const void *ellipsoid, const float dir[3], float point[3]);
 
 /* x^2 + y^2 <= radius^2, |z| <= half_length */
 typedef struct gjk3f_cylinder {

@@ -10,6 +10,7 @@ typedef pub(points) points;
 typedef pub(box) box;
 typedef pub(segment) segment;
 typedef pub(ball) ball;
+typedef pub(ellipsoid) ellipsoid;
 typedef pub(couple) couple;
 
 /* The answer of data that describe no set. */
@@ -161,6 +162,19 @@ GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[D
     if (!b || !sized(&b->radius, 1)) return refuse(out);
     store(out, along(load(dir), b->radius));
     return padded(b->radius);
+}
+
+/* The radii times the unit vector along (radii times dir). Both are brought to size first: what underflows then is far
+ * below the rounding. */
+GJK_API real pub(support_ellipsoid)(const void *data, const real dir[DIM], real out[DIM])
+{
+    const ellipsoid *e = data;
+    if (!e || !sized(e->radii, DIM)) return refuse(out);
+    vec r = load(e->radii), d = unit_size(load(dir)), g = mul(r, leveler(peak(r)));
+    EACH(g.c[i] *= d.c[i]);
+    g = along(g, 1);
+    EACH(out[i] = r.c[i] * g.c[i]);
+    return padded(peak(r));
 }
 
 #if DIM == 3

@@ -67,6 +67,7 @@ static int widen_set(widened *w, const shape *s)
     KIN(support_segment, 2 * DIM);
     KIN(support_box, DIM);
     KIN(support_ball, 1);
+    KIN(support_ellipsoid, DIM);
 #if DIM == 3
     KIN(support_triangle, 3 * DIM);
     KIN(support_cylinder, 2);

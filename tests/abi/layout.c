@@ -50,6 +50,7 @@ static void expect_packed(const char *name, size_t size)
     PACKED(gjk, box, F(half))                                                                                          \
     PACKED(gjk, segment, F(v))                                                                                         \
     PACKED(gjk, ball, F(radius))                                                                                       \
+    PACKED(gjk, ellipsoid, F(radii))                                                                                   \
     PACKED(gjk, couple, F(a) F(b))
 #define SOLID(gjk)                                                                                                     \
     FLAT(gjk)                                                                                                          \

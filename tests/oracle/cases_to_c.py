@@ -8,7 +8,8 @@ import struct
 import sys
 from fractions import Fraction
 
-KINDS = ["origin", "points", "box", "segment", "triangle", "ball", "cylinder", "cone", "disc", "sum", "hull"]
+ROUND = ["ball", "ellipsoid", "cylinder", "cone", "disc"]
+KINDS = ["origin", "points", "box", "segment", "triangle", *ROUND, "sum", "hull"]
 RELATIONS = ["apart", "touching", "overlapping"]
 
 TYPES = """\
@@ -76,22 +77,13 @@ class Writer:
     def array(self, numbers):
         return f"(const {self.real}[]){{{', '.join(map(self.number, numbers))}}}"
 
-    def pose(self, shape, columns=None):
-        """m by rows, then p, each column of m times a factor; the product must be exact."""
-        dim = self.dim
+    def pose(self, shape):
+        """m by rows, then p."""
         pose = shape.get("pose")
-        if pose is None and columns is None:
+        if pose is None:
             return "NULL"
-        pose = pose or [int(i == j) for i in range(dim) for j in range(dim + 1)]
-        columns = columns or [1] * dim
-        m = []
-        for i in range(dim):
-            for j in range(dim):
-                exact = Fraction(self.round(pose[i * (dim + 1) + j])) * Fraction(self.round(columns[j]))
-                if Fraction(self.round(float(exact))) != exact:
-                    raise ValueError("an ellipsoid's radii do not go into its pose exactly")
-                m.append(float(exact))
-        return self.array(m + [pose[i * (dim + 1) + dim] for i in range(dim)])
+        rows = range(0, len(pose), self.dim + 1)
+        return self.array([x for i in rows for x in pose[i : i + self.dim]] + [pose[i + self.dim] for i in rows])
 
     def plain(self, shape):
         """Kind, count of points and numbers, in the library's words."""
@@ -102,7 +94,8 @@ class Writer:
             half, zeros = shape["half_length"], [0] * (self.dim - 1)
             return "segment", 0, zeros + [-half] + zeros + [half]
         if kind == "ellipsoid":
-            return "ball", 0, [1]
+            radii = shape["radii"]
+            return ("ball", 0, radii[:1]) if len(set(radii)) == 1 else (kind, 0, radii)
         if kind == "box":
             return "box", 0, shape["half"]
         if kind == "points" or kind == "triangle" and self.dim == 2:
@@ -126,7 +119,7 @@ class Writer:
             f"{self.prefix}_{kind}".upper(),
             str(count),
             self.array(numbers) if numbers else "NULL",
-            self.pose(shape, shape["radii"] if shape["shape"] == "ellipsoid" else None),
+            self.pose(shape),
             self.number(radius),
             *halves,
         ]

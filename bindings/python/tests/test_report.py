@@ -146,6 +146,25 @@ def test_a_broken_bracket_is_found(scene):
         assert table.summarise("double", pairs, [found[0]._replace(relation=relation)], answers).intersect.violations
 
 
+def test_a_turned_ellipsoid_in_float(tmp_path):
+    """Its radii times its rotation would round: the bracket would be that of another set, and miss this one."""
+    box = {"shape": "box", "half": [0.010999917984008789, 0.004400014877319336, 0.0018999576568603516]}
+    box_pose = [0.9210752248764038, 0.3893846869468689, -3.528594970703125e-05, 0.23682570457458496]
+    box_pose += [0.3893846869468689, -0.9210752248764038, -2.7120113372802734e-05, -0.4888758659362793]
+    box_pose += [-4.309415817260742e-05, 1.1265277862548828e-05, -1.0, 0.192824125289917]
+    lemon = {"shape": "ellipsoid", "radii": [0.04500007629394531, 0.029999971389770508, 0.029999971389770508]}
+    lemon_pose = [0.5403022766113281, -0.8414709568023682, 0.0, 0.09999990463256836]
+    lemon_pose += [0.8414709568023682, 0.5403022766113281, 0.0, -0.4700000286102295]
+    lemon_pose += [0.0, 0.0, 1.0, 0.13000011444091797]
+    bodies = [{"name": "finger", "shape": box, "pose": box_pose}, {"name": "lemon", "shape": lemon, "pose": lemon_pose}]
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps({"name": "lemon", "dim": 3, "shapes": {}, "bodies": bodies, "pairs": "all"}))
+    pairs = load(path).rounded()
+    found = truth.find(pairs, 3, 1, lambda done, total: None)
+    answers = measure.solve(pairs, 3, "float", lambda done, total: None)
+    assert table.summarise("float", pairs, found, answers).violations == 0
+
+
 def test_several_processes_find_the_same(scene):
     pairs = load(scene).pairs
     done = []

@@ -48,10 +48,6 @@ class Variant:
         """A new C struct, such as new("box", {"half": (1, 2, 3)}); it lives as long as the object returned."""
         return ffi.new(f"{self.name}_{stem} *", value)
 
-    def rounded(self, values: tuple[float, ...]) -> tuple[float, ...]:
-        """The values as this precision holds them."""
-        return values if self.precision == "double" else tuple(ffi.new("float[]", values))
-
     def reals(self, values: Sequence[float]) -> Any:
         return ffi.new(f"{self.precision}[]", values)
 

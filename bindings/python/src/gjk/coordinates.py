@@ -11,7 +11,7 @@ from typing import Any, Union
 
 from .errors import BadArgument
 
-__all__ = ["Numbers", "PoseLike", "fault_in", "number", "number_fault", "numbers", "pose_numbers", "rows", "stretched"]
+__all__ = ["Numbers", "PoseLike", "fault_in", "number", "number_fault", "numbers", "pose_numbers", "rows"]
 
 Numbers = Iterable[float]
 """Numbers in a row: a sequence, a one-dimensional array, or any iterable."""
@@ -89,12 +89,6 @@ def _flat_pose(flat: tuple[float, ...], dim: int, table: tuple[tuple[float, ...]
     if len(flat) != length:
         raise BadArgument(f"pose: {length} numbers expected in {dim}-D, not {len(flat)}")
     return flat
-
-
-def stretched(pose: tuple[float, ...], factors: tuple[float, ...]) -> tuple[float, ...]:
-    """The pose after a stretch along the axes: column j of m times factors[j]."""
-    columns = (*factors, 1.0)
-    return tuple(c * columns[i % len(columns)] for i, c in enumerate(pose))
 
 
 def fault_in(name: str, values: Iterable[float], sign: bool = False) -> str:

@@ -8,7 +8,7 @@ from typing import Any, Callable, ClassVar, TypeVar
 
 from ._gjk import ffi
 from ._native import Native, Variant, callback_handle
-from .coordinates import Numbers, PoseLike, fault_in, number, number_fault, numbers, pose_numbers, rows, stretched
+from .coordinates import Numbers, PoseLike, fault_in, number, number_fault, numbers, pose_numbers, rows
 from .errors import BadArgument
 
 __all__ = [
@@ -133,15 +133,12 @@ class Shape:
         native = self._sets.get(v.name)
         if native is None:
             native = self._sets[v.name] = self._set(v)
-        pose, numbers = ffi.NULL, self._whole_pose(v)
-        if numbers is not None:
-            m = [c for i, c in enumerate(numbers) if i % (dim + 1) < dim]
-            pose = v.new("pose", {"m": m, "p": numbers[dim :: dim + 1]})
+        pose = ffi.NULL
+        if self.pose is not None:
+            m = [c for i, c in enumerate(self.pose) if i % (dim + 1) < dim]
+            pose = v.new("pose", {"m": m, "p": self.pose[dim :: dim + 1]})
         fields = {"support": native.support, "data": native.data, "pose": pose, "radius": self.radius}
         return v.new("shape", fields), native.python, (pose, native)
-
-    def _whole_pose(self, v: Variant) -> tuple[float, ...] | None:
-        return self.pose
 
     def _set(self, v: Variant) -> Native:
         """The support and the data of the set without pose and radius."""
@@ -319,7 +316,7 @@ def _without_radius(words: dict[str, Any], dim: int) -> dict[str, Any]:
 
 
 class Ball(Shape):
-    """|x| <= r. Under a pose that stretches it is an ellipsoid; where none does, `Sphere` is cheaper."""
+    """|x| <= r. Where no pose stretches it, `Sphere` is cheaper."""
 
     __slots__ = ("r",)
     _sizes = ("r",)
@@ -340,11 +337,7 @@ class Ball(Shape):
 
 
 class Ellipsoid(Shape):
-    """With half axes radii[i] along the coordinate axes, before its pose. Two of them make an ellipse.
-
-    To the library it is a ball of radius 1 under the pose whose columns are multiplied by the radii. That product
-    rounds once, well within what the bracket allows a support.
-    """
+    """With half axes radii[i] along the coordinate axes, before its pose. Two of them make an ellipse."""
 
     __slots__ = ("radii",)
     _sizes = ("radii",)
@@ -354,13 +347,8 @@ class Ellipsoid(Shape):
         axes = numbers(radii, "radii")
         super().__init__(len(axes), pose, radius, radii=axes)
 
-    def _whole_pose(self, v: Variant) -> tuple[float, ...]:
-        pose = self.pose or pose_numbers([0.0] * self.dim, self.dim)
-        return stretched(v.rounded(pose), v.rounded(self.radii))
-
     def _set(self, v: Variant) -> Native:
-        # A negative half axis would pass for a mirrored one: NaN lets the library refuse it.
-        return _ready(v, "support_ball", "ball", {"radius": 1.0 if min(self.radii) >= 0 else float("nan")})
+        return _ready(v, "support_ellipsoid", "ellipsoid", {"radii": self.radii})
 
     def _set_fault(self) -> str:
         return fault_in("radii", self.radii, sign=True)
