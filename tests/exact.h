@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The distance between two bodies with corners, exactly: whole numbers of any length, by GMP.
+/* The distance between two bodies with corners, or how deep they overlap, exactly: whole numbers of any length, by GMP.
  *
  * Every coordinate is a sum of products of floating-point numbers, hence a whole number times a power of two. The
  * nearest point of the set of differences b - a is sought by active sets, and is accepted only once it is proven: it is
  * a mean of differences of vertices with weights that are not negative, and no difference of two vertices lies nearer
- * along it. Both are decided without rounding, so the result does not depend on how it was found. */
+ * along it. Both are decided without rounding, so the result does not depend on how it was found. So it is with the
+ * depth: a polytope is grown within the differences until none lies beyond its face nearest to the origin. */
 #ifndef EXACT_H
 #define EXACT_H
 
@@ -61,6 +62,16 @@ typedef struct exact_corner {
     mpz_t w[DIM];
 } exact_corner;
 
+#define EXACT_CORNERS 160
+#define EXACT_FACES 640
+
+/* Of the polytope: n points outwards, and n w is at most h within it. */
+typedef struct exact_face {
+    int corner[DIM]; /* rising */
+    mpz_t n[DIM], h;
+    mpq_t level; /* the square of h / |n|, with the sign of h */
+} exact_face;
+
 typedef struct exact {
     exact_set a, b;
     long e; /* of all coordinates, in the end */
@@ -72,7 +83,10 @@ typedef struct exact {
     mpz_t n[DIM];   /* the nearest point, times whole */
     mpq_t square;   /* the squared distance of the cores */
     mpq_t radius;   /* to be taken off their distance */
-    mpf_t distance; /* of the bodies, to 2^-1000: to measure with, nothing is decided by it */
+    mpf_t distance; /* of the bodies, to 2^-1000, below 0 in overlap: to measure with, nothing is decided by it */
+    mpz_t w[EXACT_CORNERS][DIM], inside[DIM]; /* the polytope, and the sum of its first corners */
+    exact_face face[EXACT_FACES];
+    int corners, faces;
     int rounds;
     mpz_t x, y, z, g[DIM][DIM], r[DIM];
     mpq_t p, q;
@@ -85,6 +99,23 @@ static inline void exact_start_set(exact_set *s)
         for (int i = 0; i < DIM; i++) {
             mpz_init(s->v[k][i].m);
         }
+    }
+}
+
+static inline void exact_start_polytope(exact *t)
+{
+    for (int i = 0; i < DIM; i++) {
+        mpz_init(t->inside[i]);
+        for (int k = 0; k < EXACT_CORNERS; k++) {
+            mpz_init(t->w[k][i]);
+        }
+        for (int k = 0; k < EXACT_FACES; k++) {
+            mpz_init(t->face[k].n[i]);
+        }
+    }
+    for (int k = 0; k < EXACT_FACES; k++) {
+        mpz_init(t->face[k].h);
+        mpq_init(t->face[k].level);
     }
 }
 
@@ -114,6 +145,7 @@ static inline void exact_start(exact *t)
     mpf_init2(t->distance, 1000);
     mpf_init2(t->f, 1000);
     mpf_init2(t->h, 1000);
+    exact_start_polytope(t);
 }
 
 /* ---- the vertices, posed ---- */
@@ -350,6 +382,16 @@ static inline void exact_shrink(exact *t)
     fail_msg("no part of a simplex holds its nearest point");
 }
 
+/* From a square in units of 2^e. */
+static inline void exact_square_in_full(const exact *t, mpq_ptr square)
+{
+    if (t->e > 0) {
+        mpq_mul_2exp(square, square, (mp_bitcnt_t)(2 * t->e));
+    } else {
+        mpq_div_2exp(square, square, (mp_bitcnt_t)(-2 * t->e));
+    }
+}
+
 /* The square, and the distance less the radii to measure with. */
 static inline void exact_finish(exact *t, const body *a, const body *b)
 {
@@ -361,11 +403,7 @@ static inline void exact_finish(exact *t, const body *a, const body *b)
     mpq_set_num(t->square, t->x);
     mpq_set_den(t->square, t->y);
     mpq_canonicalize(t->square);
-    if (t->e > 0) {
-        mpq_mul_2exp(t->square, t->square, (mp_bitcnt_t)(2 * t->e));
-    } else {
-        mpq_div_2exp(t->square, t->square, (mp_bitcnt_t)(-2 * t->e));
-    }
+    exact_square_in_full(t, t->square);
     mpq_set_d(t->radius, (double)a->shape.radius);
     mpq_set_d(t->p, (double)b->shape.radius);
     mpq_add(t->radius, t->radius, t->p);
@@ -405,6 +443,211 @@ static inline void exact_distance(exact *t, const body *a, const body *b)
         }
     }
     exact_finish(t, a, b);
+}
+
+/* ---- the depth ---- */
+
+/* sum = n w */
+static inline void exact_along(mpz_t *n, mpz_t *w, mpz_ptr sum)
+{
+    mpz_mul(sum, n[0], w[0]);
+    for (int i = 1; i < DIM; i++) {
+        mpz_addmul(sum, n[i], w[i]);
+    }
+}
+
+/* Makes the farthest difference along sign n the next corner, which does not count yet. */
+static inline void exact_beyond(exact *t, int sign)
+{
+    int at_a = exact_farthest(t, &t->a, -sign), at_b = exact_farthest(t, &t->b, sign);
+    for (int i = 0; i < DIM; i++) {
+        mpz_sub(t->w[t->corners][i], t->b.v[at_b][i].m, t->a.v[at_a][i].m);
+    }
+}
+
+/* A vector across the edges from the first corner given to the others; of fewer than DIM corners, across axes too. */
+static inline void exact_across(exact *t, const int *corner, int count, int axis, mpz_t *n)
+{
+    for (int k = 0; k < DIM - 1; k++) {
+        for (int i = 0; i < DIM; i++) {
+            if (k + 1 < count) {
+                mpz_sub(t->g[k][i], t->w[corner[k + 1]][i], t->w[corner[0]][i]);
+            } else {
+                mpz_set_si(t->g[k][i], i == (axis + k) % DIM);
+            }
+        }
+    }
+#if DIM == 3
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        mpz_mul(n[i], t->g[0][j], t->g[1][k]);
+        mpz_submul(n[i], t->g[0][k], t->g[1][j]);
+    }
+#else
+    mpz_set(n[0], t->g[0][1]);
+    mpz_neg(n[1], t->g[0][0]);
+#endif
+}
+
+/* Adds a corner that is not in the flat through those so far. 0: there is none. */
+static inline int exact_widen(exact *t)
+{
+    int all[DIM];
+    for (int k = 0; k < DIM; k++) {
+        all[k] = k;
+    }
+    for (int axis = 0; axis < DIM; axis++) {
+        exact_across(t, all, t->corners, axis, t->n);
+        for (int sign = -1; sign <= 1; sign += 2) {
+            exact_beyond(t, sign);
+            exact_along(t->n, t->w[t->corners], t->x);
+            exact_along(t->n, t->w[0], t->y);
+            if (mpz_cmp(t->x, t->y) != 0) {
+                t->corners++;
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* 0: no room. */
+static inline int exact_add_face(exact *t, const int *corner)
+{
+    exact_face *f = &t->face[t->faces];
+    if (t->faces == EXACT_FACES) {
+        return 0;
+    }
+    memcpy(f->corner, corner, sizeof f->corner);
+    exact_across(t, corner, DIM, 0, f->n);
+    exact_along(f->n, t->w[corner[0]], f->h);
+    exact_along(f->n, t->inside, t->x);
+    mpz_mul_ui(t->y, f->h, DIM + 1);
+    if (mpz_cmp(t->x, t->y) > 0) {
+        mpz_neg(f->h, f->h);
+        for (int i = 0; i < DIM; i++) {
+            mpz_neg(f->n[i], f->n[i]);
+        }
+    }
+    mpz_mul(t->x, f->h, f->h);
+    exact_along(f->n, f->n, t->y);
+    mpq_set_num(f->level, t->x);
+    mpq_set_den(f->level, t->y);
+    mpq_canonicalize(f->level);
+    if (mpz_sgn(f->h) < 0) {
+        mpq_neg(f->level, f->level);
+    }
+    t->faces++;
+    return 1;
+}
+
+/* A first simplex. 0: the differences lie in a flat. */
+static inline int exact_first_polytope(exact *t)
+{
+    t->corners = t->faces = 0;
+    for (int i = 0; i < DIM; i++) {
+        mpz_set_ui(t->n[i], i == 0);
+    }
+    exact_beyond(t, 1);
+    t->corners = 1;
+    while (t->corners <= DIM) {
+        if (!exact_widen(t)) {
+            return 0;
+        }
+    }
+    for (int i = 0; i < DIM; i++) {
+        mpz_set(t->inside[i], t->w[0][i]);
+        for (int k = 1; k <= DIM; k++) {
+            mpz_add(t->inside[i], t->inside[i], t->w[k][i]);
+        }
+    }
+    for (int out = 0; out <= DIM; out++) {
+        int corner[DIM];
+        for (int i = 0; i < DIM; i++) {
+            corner[i] = i + (i >= out);
+        }
+        exact_add_face(t, corner);
+    }
+    return 1;
+}
+
+/* Replaces the faces that the next corner lies beyond by faces from their rim to it. 0: no room. */
+static inline int exact_grow(exact *t)
+{
+    static int rim[EXACT_FACES * DIM][DIM];
+    int rims = 0, kept = 0;
+    for (int k = 0; k < t->faces; k++) {
+        exact_along(t->face[k].n, t->w[t->corners], t->x);
+        if (mpz_cmp(t->x, t->face[k].h) <= 0) {
+            exact_face keep = t->face[k];
+            t->face[k] = t->face[kept];
+            t->face[kept++] = keep;
+            continue;
+        }
+        for (int out = 0; out < DIM; out++) { /* the side across from each corner is rim unless it comes twice */
+            int side[DIM], twin = 0;
+            for (int i = 0; i < DIM - 1; i++) {
+                side[i] = t->face[k].corner[i + (i >= out)];
+            }
+            side[DIM - 1] = t->corners;
+            while (twin < rims && memcmp(rim[twin], side, sizeof side) != 0) {
+                twin++;
+            }
+            if (twin < rims) {
+                memmove(rim[twin], rim[--rims], sizeof side);
+            } else {
+                memcpy(rim[rims++], side, sizeof side);
+            }
+        }
+    }
+    t->faces = kept;
+    for (int k = 0; k < rims; k++) {
+        if (!exact_add_face(t, rim[k])) {
+            return 0;
+        }
+    }
+    t->corners++;
+    return 1;
+}
+
+/* Grows the polytope until its nearest face is one of the differences. 0: no room. */
+static inline int exact_nearest_face(exact *t, int *at)
+{
+    while (t->corners < EXACT_CORNERS) {
+        *at = 0;
+        for (int k = 1; k < t->faces; k++) {
+            *at = mpq_cmp(t->face[k].level, t->face[*at].level) < 0 ? k : *at;
+        }
+        for (int i = 0; i < DIM; i++) {
+            mpz_set(t->n[i], t->face[*at].n[i]);
+        }
+        exact_beyond(t, 1);
+        exact_along(t->n, t->w[t->corners], t->x);
+        if (mpz_cmp(t->x, t->face[*at].h) == 0) {
+            return 1;
+        }
+        if (!exact_grow(t)) {
+            return 0;
+        }
+    }
+    return 0;
+}
+
+/* After exact_distance: takes the depth off the distance, 0 as it is, of cores that meet. 0: it was not found. */
+static inline int exact_depth(exact *t)
+{
+    int at;
+    if (!exact_first_polytope(t)) {
+        return 1; /* flat: they touch */
+    }
+    if (!exact_nearest_face(t, &at)) {
+        return 0;
+    }
+    exact_square_in_full(t, t->face[at].level);
+    mpf_set_q(t->h, t->face[at].level);
+    mpf_sqrt(t->h, t->h);
+    mpf_sub(t->distance, t->distance, t->h);
+    return 1;
 }
 
 /* ---- questions, answered without rounding ---- */
