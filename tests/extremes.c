@@ -360,6 +360,25 @@ static void flattened_ball(void **state)
     }
 }
 
+/* No face tells that smooth bodies overlap: it is probed for, down to depths of a few times the doubt. */
+static void shallow_overlap_of_balls(void **state)
+{
+    (void)state;
+    for (int units = 300; units < 3000; units += 100) {
+        V(result) r;
+        fresh(NULL);
+        start_body(&a, BALL);
+        start_body(&b, BALL);
+        a.radius = 1;
+        b.radius = (real)0.5;
+        bind(&a);
+        bind(&b);
+        b.pose.p[0] = (real)(1.5 - units * U);
+        assert_int_equal(V(intersect)(&a.shape, &b.shape, NULL, &r), GJK_DECIDED);
+        assert_true(r.upper < 0);
+    }
+}
+
 /* ---- a warm start ---- */
 
 /* a: a triangle with one edge across the first axis. b: a wedge, its apex at 0 and farthest along that axis. */
@@ -522,6 +541,7 @@ int main(void)
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
         cmocka_unit_test_setup(as_small_as_normal_numbers_get, fresh),
         cmocka_unit_test_setup(flattened_ball, fresh),
+        cmocka_unit_test_setup(shallow_overlap_of_balls, fresh),
         cmocka_unit_test_setup(warm_start_from_a_speck, fresh),
         cmocka_unit_test_setup(infinite_point, fresh),
         cmocka_unit_test_setup(short_by_the_slack, fresh),

@@ -407,6 +407,35 @@ static void check_effort(pair *p, draws *d)
     }
 }
 
+/* Near contact v is as small as what its corners lost to rounding, and its direction noise. The normal must not be. */
+static void normal_near_contact(void **state)
+{
+    static pair p;
+    V(options) tight = default_options();
+    int near = 0;
+    tight.tight = 1;
+    family = GAPS;
+    (void)state;
+    for (uint64_t i = 0; i < 4000; i++) {
+        draws d = draws_from(3, (uint64_t)family, i);
+        draw_pair(&d, family, &p);
+        V(result) fast = distance_with(&p, NULL), exact = distance_with(&p, &tight);
+        if (!(exact.value > 0 && (double)exact.value < 100 * U * (size_of(&p.a) + size_of(&p.b)))) {
+            continue;
+        }
+        near++;
+        for (int k = 0; k < DIM; k++) {
+            double off = fabs((double)fast.normal[k] - (double)exact.normal[k]);
+            if (off > 16 * U) {
+                print_error("%s: normal off by %g, %g apart\n  ", VARIANT, off, (double)exact.value);
+                print_case(stderr, "distance", &p.a, &p.b);
+                fail();
+            }
+        }
+    }
+    assert_true(near > 100);
+}
+
 #define LAW(name)                                                                                                      \
     static void name(void **state)                                                                                     \
     {                                                                                                                  \
@@ -429,10 +458,19 @@ LAW(effort)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(repeat),   cmocka_unit_test(swap),         cmocka_unit_test(agreement),
-        cmocka_unit_test(motion),   cmocka_unit_test(axes),         cmocka_unit_test(lattice_motion),
-        cmocka_unit_test(vertices), cmocka_unit_test(radius),       cmocka_unit_test(unit_of_length),
-        cmocka_unit_test(warm),     cmocka_unit_test(extreme_unit), cmocka_unit_test(effort),
+        cmocka_unit_test(repeat),
+        cmocka_unit_test(swap),
+        cmocka_unit_test(agreement),
+        cmocka_unit_test(motion),
+        cmocka_unit_test(axes),
+        cmocka_unit_test(lattice_motion),
+        cmocka_unit_test(vertices),
+        cmocka_unit_test(radius),
+        cmocka_unit_test(unit_of_length),
+        cmocka_unit_test(warm),
+        cmocka_unit_test(extreme_unit),
+        cmocka_unit_test(effort),
+        cmocka_unit_test(normal_near_contact),
     };
     return cmocka_run_group_tests_name("laws of " VARIANT, tests, NULL, NULL);
 }

@@ -156,7 +156,6 @@ static int settle(difference *d, real slack)
     c *= d->scale;
     d->doubt = UNIT * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
     if (d->wild) { /* products that underflow here, and in the supports where reaches are faint */
-        d->doubt += 64 * TINY;
         if (whole < REAL_MIN) d->doubt += 64 * TINY * d->scale;
         if (faint(d->a.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->a.stretch);
         if (faint(d->b.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->b.stretch);
