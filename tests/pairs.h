@@ -972,17 +972,18 @@ static inline void draw_sharp(draws *d, enum family family, pair *p)
     }
 }
 
-/* Axes of 1e6 to 1 at most, as the map of a ball. */
+/* Axes of 1e6 to 1 at most, as radii of the set or in the map of a ball. */
 static inline void draw_ellipsoid(draws *d, body *b)
 {
     double m[DIM * DIM];
-    start_body(b, BALL);
+    start_body(b, below(d, 2) ? ELLIPSOID : BALL);
     b->radius = 1;
     rotation(d, below(d, 4) ? 100 : 0, m);
     for (int j = 0; j < DIM; j++) {
-        double axis = below(d, 3) ? magnitude(d, -6, 0) : 1;
+        double axis = below(d, 3) ? magnitude(d, -6, 0) : 1, stretch = b->kind == BALL ? axis : 1;
+        b->half[j] = (real)axis;
         for (int i = 0; i < DIM; i++) {
-            b->pose.m[i * DIM + j] = (real)(m[i * DIM + j] * axis);
+            b->pose.m[i * DIM + j] = (real)(m[i * DIM + j] * stretch);
         }
     }
 }

@@ -5,6 +5,7 @@ import dataclasses
 import doctest
 import importlib
 import json
+import random
 import re
 import subprocess
 import sys
@@ -105,6 +106,19 @@ def test_round_shapes(a, b, distance):
     truth = solve(a, b, 3)
     assert truth.lower <= distance <= truth.upper
     assert truth.upper - truth.lower < Fraction(1, 10**28)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("radius", [0, 0.125])
+def test_deep_inside_a_ball(dim, radius):
+    """The first two support points lie on a line through the centre: their segment passes by 0 by less than the gap."""
+    draw = random.Random(5)
+    ball = {"shape": "ellipsoid", "radii": [1] * dim}
+    for _ in range(50):
+        inner = {"shape": "points", "points": [[draw.uniform(-0.5, 0.5) for _ in range(dim)]], "radius": radius}
+        truth = solve(inner, ball, dim)
+        assert (truth.relation, truth.proven, truth.separation) == (exact.OVERLAPPING, True, None)
+        assert truth.lower == truth.upper == 0
 
 
 def test_point_and_ellipse():

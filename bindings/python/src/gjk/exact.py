@@ -34,6 +34,7 @@ SHORT_BITS = 128  # of a direction that need not be exact
 GAP_BITS = 104  # round sets: solved when the bracket is 2**-104 of the size
 ROOT_BITS = 400  # of a square root
 MAX_STEPS = 2000  # round sets only; the bracket holds wherever it stops
+MORE_STEPS = 16  # round sets only: within the gap, but with nothing yet to say that they are apart
 
 
 class Unproven(ArithmeticError):
@@ -45,11 +46,11 @@ class Truth:
     """How two sets stand. Lengths are fractions; square roots among them are rounded in their 140th bit."""
 
     relation: str  # APART, TOUCHING or OVERLAPPING
-    proven: bool  # False: round sets closer to touching than the bracket can tell
+    proven: bool  # False: the relation is open; round sets closer to touching than the bracket can tell
     exact: bool  # both are polytopes, grown or not
     lower: Fraction  # <= the distance
     upper: Fraction  # >= the distance
-    separation: tuple | None  # bracket of the signed separation; None where the cores meet
+    separation: tuple | None  # bracket of the signed separation; None where the cores meet, or may
     core_squared: Fraction | None  # squared distance of the cores, exact; None for round sets
     scale: Fraction  # largest |coordinate| of either body, grown, from the midpoint of a closest pair
     point_a: tuple  # a closest pair; meeting, one point of both
@@ -435,8 +436,9 @@ class Nearest:
 
 def nearest(pair, corral, weights, tolerance=None, extra=0, shift=None):
     """Wolfe's algorithm from a simplex and a point in it. Without a tolerance (polytopes) it ends at the optimum;
-    with one, in units of the grid, as soon as upper - lower is within it."""
-    lower, direction, steps = Fraction(0), None, 0
+    with one, in units of the grid, as soon as upper - lower is within it and a direction separates. Where none does,
+    it looks a little further: a simplex that is flat or small may pass by 0 and yet lie deep in the set."""
+    lower, direction, steps, more = Fraction(0), None, 0, MORE_STEPS
     while True:
         corral, aims, total = settle(corral, weights)
         v, scale = reduced([dot(aims, [s[0][i] for s in corral]) for i in range(pair.dim)], total)
@@ -456,7 +458,9 @@ def nearest(pair, corral, weights, tolerance=None, extra=0, shift=None):
         if not nearer and tolerance is None:
             end.lower, end.direction = root(Fraction(square, scale * scale), False), v
             return end
-        if not nearer or tolerance is not None and end.upper() - lower <= tolerance:
+        if tolerance is not None and end.upper() - lower <= tolerance:
+            more = 0 if direction else more - 1
+        if not nearer or more == 0:
             return end
         corral = corral + [found]
         weights = [Fraction(n, total) for n in aims] + [Fraction(0)]
@@ -515,6 +519,10 @@ def judge(pair, boxes, end):
     if square == 0:
         relation, direction, proven = judge_meeting(pair, boxes, end, radii)
         lower = upper = Fraction(0)
+    elif direction is None:  # the cores may meet
+        high = rounded((end.upper() - radii) * unit, True)
+        relation, proven = (OVERLAPPING, True) if high < 0 else (TOUCHING, False)
+        lower, upper = Fraction(0), max(high, Fraction(0))
     else:
         low, high = end.lower - radii, end.upper() - radii
         if pair.exact:

@@ -96,14 +96,18 @@ def _row(level: Answers, truths: list[Truth], u: float) -> Row:
 def _verdicts(level: Answers, truths: list[Truth]) -> Verdicts:
     apart = [answer.lower > 0 for answer in level.answers]
     meeting = [answer.upper <= 0 for answer in level.answers]
-    wrong = sum(
+    wrong = sum(truth.proven and _contradicts(answer, truth) for answer, truth in zip(level.answers, truths))
+    touching = len(apart) - sum(apart) - sum(meeting)
+    return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(meeting), touching, wrong)
+
+
+def _contradicts(answer: Answer, truth: Truth) -> bool:
+    """Whether a verdict is against the truth."""
+    return (
         (answer.lower > 0 and truth.relation != APART)
         or (answer.upper <= 0 and truth.relation == APART)
         or (answer.upper < 0 and truth.relation != OVERLAPPING)
-        for answer, truth in zip(level.answers, truths)
     )
-    touching = len(apart) - sum(apart) - sum(meeting)
-    return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(meeting), touching, wrong)
 
 
 def _mean_supports(level: Answers) -> float:

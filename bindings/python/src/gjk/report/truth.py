@@ -21,6 +21,8 @@ class Truth(NamedTuple):
     upper: Fraction
     """The distance lies between; both are equal, or agree to some 30 digits."""
     relation: str
+    proven: bool
+    """Whether the relation is; round sets may come closer to touching than can be told."""
     scale: float
     """The largest |coordinate| of the two bodies, seen from the midpoint of a closest pair."""
 
@@ -45,4 +47,4 @@ def _gather(found: Any, total: int, step: Callable[[int, int], None]) -> list[Tr
 
 def _truth(task: tuple[dict[str, Any], dict[str, Any], int]) -> Truth:
     found = exact.distance(*task)
-    return Truth(found.lower, found.upper, found.relation, float(found.scale))
+    return Truth(found.lower, found.upper, found.relation, found.proven, float(found.scale))
