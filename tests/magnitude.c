@@ -115,12 +115,28 @@ static void note_binades(range *r, const real *x, int count)
     }
 }
 
+/* The coordinates of its points too: a radius squared, by the longest, times what there is of a direction. */
+static void note_ellipsoid(range *r, const real *radii)
+{
+    double longest = 0;
+    for (int i = 0; i < DIM; i++) {
+        longest = fmax(longest, (double)radii[i]);
+    }
+    for (int i = 0; i < DIM; i++) {
+        real least = (real)((double)radii[i] / longest * (double)radii[i] * U);
+        note_binades(r, &least, 1);
+    }
+}
+
 static void note_set(range *r, const body *b)
 {
     note_binades(r, b->v[0], MAX_POINTS * DIM);
     note_binades(r, b->half, DIM);
     note_binades(r, &b->radius, 1);
     note_binades(r, &b->half_length, 1);
+    if (b->kind == ELLIPSOID) {
+        note_ellipsoid(r, b->half);
+    }
 }
 
 static int headroom(const pair *p)
