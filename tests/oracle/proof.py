@@ -3,9 +3,12 @@
 
 h(shape, d) is the largest d.x over the set, h(-d) the least negated; then
     (-h(b, -d) - h(a, d)) / |d|    is a lower bound of the signed separation for every d, and
-    a point x is outside the set exactly if d.x > h(shape, d) for some d."""
+    a point x is outside the set exactly if d.x > h(shape, d) for some d.
+
+A depth of polytopes is an upper bound by its direction, and a lower one by a closed shell of facets around 0."""
 
 import random
+from collections import Counter
 from fractions import Fraction
 from itertools import product
 
@@ -133,8 +136,9 @@ def prove(truth, a, b, dim):
     require(truth.exact == (is_polytope(a, dim) and is_polytope(b, dim)), "exactness misjudged")
     require(0 <= truth.lower <= truth.upper, "bracket upside down")
     require((truth.upper + radii) ** 2 >= square or square <= radii**2, "upper is not above the pair of points")
+    require((truth.depth_squared is not None) == (truth.exact and not square), "a depth where there is none, or none")
     if truth.direction is not None:
-        prove_direction(truth, a, b, v, square)
+        prove_direction(truth, a, b, square)
     else:
         require(truth.lower == 0, "a lower bound without a direction")
     if truth.exact and square:
@@ -144,7 +148,10 @@ def prove(truth, a, b, dim):
         require(truth.upper - truth.lower <= truth.upper * Fraction(1, 10**30), "bracket of a polytope too wide")
     if truth.relation == "apart":
         require(truth.lower > 0, "apart without a lower bound")
-    if truth.relation == "overlapping" and square == 0 and not radii:
+    if truth.exact and not square:
+        prove_depth(truth, a, b, dim)
+        prove_depth_as_answer(truth, radii)
+    elif truth.relation == "overlapping" and square == 0 and not radii:
         prove_interior(a, b, dim)
     if truth.relation == "overlapping" and square:
         require(square < radii**2, "overlapping without a common point")
@@ -160,14 +167,63 @@ def prove_members(points, shape, dim):
             require(all(dot(d, p) <= bound for p in points), "outside the set")
 
 
-def prove_direction(truth, a, b, v, square):
+def prove_direction(truth, a, b, square):
     d = fractions(truth.direction)
     least = -reach(b, [-c for c in d]) - reach(a, d)
     if truth.exact:
-        core = -core_reach(b, [-c for c in d]) - core_reach(a, d)
-        require(core >= 0 and core * core == square * dot(d, d), "the direction does not realise the distance")
+        core, depth = -core_reach(b, [-c for c in d]) - core_reach(a, d), truth.depth_squared or 0
+        require(core * abs(core) == (square - depth) * dot(d, d), "the direction does not realise the separation")
     elif truth.lower > 0:
         require(least / exact.root(dot(d, d), True) >= truth.lower - truth.scale / 10**35, "lower is not proven")
+
+
+def prove_depth(truth, a, b, dim):
+    """The direction bounds the depth from above. Below: seen from 0 every facet of the shell turns the same way and
+    each side of one is a side of another, the other way round. So every ray from 0 leaves through one of them, and all
+    that lies nearer than their planes is among the differences, as 0 and the corners are."""
+    require(truth.direction is not None and any(truth.direction), "no direction")
+    if truth.depth_squared == 0:
+        return
+    for which, shape in ((0, a), (1, b)):
+        prove_members([c[which] for c in truth.corners], shape, dim)
+    w = [[q - p for p, q in zip(*c)] for c in truth.corners]
+    sides = Counter()
+    for corners in truth.facets:
+        n = normal([w[i] for i in corners])
+        h = dot(n, w[corners[0]])
+        require(h * h >= truth.depth_squared * dot(n, n) and h != 0, "a facet nearer than the depth")
+        sides.update(oriented_sides(corners if h > 0 else (corners[1], corners[0], *corners[2:])))
+    require(sides and all(sides[side] == sides[opposite(side)] for side in sides), "the shell is not closed")
+
+
+def normal(points):
+    """The cross product of the edges: its product with a point is the determinant of all."""
+    edges = [[y - x for x, y in zip(points[0], p)] for p in points[1:]]
+    if len(points) == 2:
+        ((x, y),) = edges
+        return [y, -x]
+    (p, q, r), (x, y, z) = edges
+    return [q * z - r * y, r * x - p * z, p * y - q * x]
+
+
+def oriented_sides(corners):
+    """Of a triangle its three edges, as they are passed through; of an edge its ends, as they are left and reached."""
+    if len(corners) == 2:
+        return [("from", corners[0]), ("to", corners[1])]
+    return list(zip(corners, corners[1:] + corners[:1]))
+
+
+def opposite(side):
+    x, y = side
+    return ({"from": "to", "to": "from"}[x], y) if isinstance(x, str) else (y, x)
+
+
+def prove_depth_as_answer(truth, radii):
+    low, high = (-x - radii for x in reversed(truth.separation))
+    require(max(low, 0) ** 2 <= truth.depth_squared <= high**2 and high >= 0, "the separation is not that of the depth")
+    require(high - low <= (high + radii) / 10**30, "separation of a polytope too wide")
+    overlapping = truth.depth_squared > 0 or radii > 0
+    require(truth.relation == ("overlapping" if overlapping else "touching"), "relation of sets that meet")
 
 
 def prove_interior(a, b, dim):

@@ -65,6 +65,11 @@ def test_aligned_boxes(dim, seed):
     assert truth.core_squared == sum(max(g, 0) ** 2 for g in gaps)
     widest = max(gaps)
     assert truth.relation == ("apart" if widest > 0 else "touching" if widest == 0 else "overlapping")
+    assert truth.depth_squared == (None if widest > 0 else widest**2)
+    if widest <= 0:
+        assert truth.separation[0] <= widest <= truth.separation[1]
+        axis = [abs(c) for c in exact.reduced(truth.direction, 0)[0]]
+        assert sorted(axis) == [0] * (dim - 1) + [1] and gaps[axis.index(1)] == widest
 
 
 @pytest.mark.parametrize("dim", (2, 3))
@@ -119,6 +124,67 @@ def test_deep_inside_a_ball(dim, radius):
         truth = solve(inner, ball, dim)
         assert (truth.relation, truth.proven, truth.separation) == (exact.OVERLAPPING, True, None)
         assert truth.lower == truth.upper == 0
+
+
+SEGMENTS = [{"shape": "segment", "v": v} for v in ([[-2, 0], [2, 0]], [[0, -1], [0, 1]])]
+TRIANGLE = points([0, 0], [4, 0], [0, 3])
+
+
+@pytest.mark.parametrize(
+    "a, b, squared, direction",
+    [
+        (box(1, 1), box(2, 3, p=[2.5, 0.25]), Fraction(1, 4), (1, 0)),
+        (box(1, 1, 1), box(1, 1, 1, p=[0.25, 0.5, -1.75]), Fraction(1, 16), (0, 0, -1)),
+        (box(1, 2, 3), box(0.25, 0.25, 0.25, p=[0, 1.5, 0]), Fraction(9, 16), (0, 1, 0)),
+        (box(1, 1, 1), box(1, 1, 1), 4, None),
+        (box(1, 1, 1), points([0, 0.5, 0]), Fraction(1, 4), (0, 1, 0)),
+        (box(1, 2, 3), points([1, 0, 0]), 0, (1, 0, 0)),
+        (box(1, 1, 1), box(1, 1, 1, p=[2, 2, 2]), 0, None),
+        (TRIANGLE, points([1, 1]), 1, None),
+        (TRIANGLE, points([1.5, 1.25]), Fraction(1, 4), (3, 4)),
+        (SEGMENTS[0], SEGMENTS[1], 1, None),
+        (SEGMENTS[0], {"shape": "segment", "v": [[-1, -1], [1, 1]]}, 1, None),
+        (SEGMENTS[0], SEGMENTS[0], 0, None),
+        (points([1, 2]), points([1, 2]), 0, None),
+        (points([1, 2, 3]), points([1, 2, 3]), 0, None),
+        (points([-2, 0, 0], [2, 0, 0]), points([0, -1, 0], [0, 1, 0]), 0, None),
+        (points([0, 0, 0], [4, 0, 0], [0, 4, 0]), points([1, 1, 0], [2, 1, 0], [1, 5, 0]), 0, None),
+        (points([0, 0, 0], [4, 0, 0], [0, 4, 0]), points([1.25, 1.25, -1], [1.25, 1.25, 2]), 1, (0, 0, 1)),
+        (points([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]), points([0.25, 0.25, 0.25]), Fraction(1, 48), (1, 1, 1)),
+    ],
+)
+def test_depths(a, b, squared, direction):
+    truth = solve(a, b, len(a.get("half") or (a.get("points") or a["v"])[0]))
+    assert truth.depth_squared == squared
+    assert direction is None or exact.reduced(truth.direction, 0)[0] == direction
+    assert truth.relation == ("overlapping" if squared else "touching")
+    assert truth.separation[0] ** 2 >= squared >= truth.separation[1] ** 2 and truth.separation[1] <= 0
+
+
+def test_radii_add_to_the_depth():
+    a, b = {**box(1, 1, 1), "radius": 0.5}, {**box(1, 1, 1, p=[1.5, 0, 0]), "radius": 0.25}
+    truth = solve(a, b, 3)
+    assert truth.separation == (Fraction(-5, 4), Fraction(-5, 4)) and truth.depth_squared == Fraction(1, 4)
+    truth = solve(sphere(1, 1, 2, 3), sphere(2, 1, 2, 3), 3)
+    assert truth.separation == (-3, -3) and truth.depth_squared == 0 and truth.relation == "overlapping"
+    truth = solve(a, {**box(1, 1, 1, p=[2.5, 0, 0]), "radius": 0.25}, 3)
+    assert truth.separation == (Fraction(-1, 4), Fraction(-1, 4)) and truth.depth_squared is None
+
+
+def test_round_sets_have_no_depth():
+    truth = solve({"shape": "disc", "r": 1}, box(1, 1, 1), 3)
+    assert truth.depth_squared is truth.separation is truth.normal is None and truth.facets == ()
+
+
+def test_couples_of_polytopes_have_a_depth():
+    rod = {"shape": "segment", "v": [[0, 0, -1], [0, 0, 1]]}
+    square = {"shape": "box", "half": [1, 1, 0]}
+    one = solve({"shape": "sum", "a": square, "b": rod}, box(1, 1, 1, p=[1.5, 0.25, 0]), 3)
+    assert one.depth_squared == Fraction(1, 4)
+    tent = {"shape": "hull", "a": square, "b": points([0, 0, 2]), "pose": at(0, 0, -1)}
+    two = solve(tent, points([0, 0, 0]), 3)
+    three = solve(points(*[[x, y, -1] for x in (-1, 1) for y in (-1, 1)], [0, 0, 1]), points([0, 0, 0]), 3)
+    assert two.depth_squared == three.depth_squared == Fraction(1, 5)
 
 
 def test_point_and_ellipse():
@@ -187,13 +253,13 @@ def mapped(shape, m, p, factor=1):
 def test_laws(dim, seed):
     a, b = drawn_polytopes(seed, dim)
     truth = solve(a, b, dim)
-    square, relation = truth.core_squared or 0, truth.relation
+    square, relation = signed_square(truth), truth.relation
     p = [2**20 + 3, -7, 11][:dim]
     still = draw.identity(dim)
 
     def same(a, b, factor=1, radii=1):
         again = solve({**a, "radius": a["radius"] * radii}, {**b, "radius": b["radius"] * radii}, dim)
-        assert (again.core_squared or 0) == square * factor and again.relation == relation
+        assert signed_square(again) == square * factor and again.relation == relation
 
     same(b, a)
     same(mapped(a, QUARTER[dim], p), mapped(b, QUARTER[dim], p))
@@ -204,8 +270,33 @@ def test_laws(dim, seed):
     pose = [x for row, t in zip(turn, p) for x in [*row, t]]
     same({**a, "pose": pose}, {**b, "pose": pose})
     grown = solve({**a, "radius": a["radius"] + 1}, {**b, "radius": b["radius"]}, dim)
-    if square:
-        assert abs(grown.separation[0] + 1 - truth.separation[0]) < Fraction(1, 10**30)
+    assert abs(grown.separation[0] + 1 - truth.separation[0]) < Fraction(1, 10**30)
+
+
+def signed_square(truth):
+    """Of the distance of the cores, or less that of their depth."""
+    return truth.core_squared or -truth.depth_squared
+
+
+@pytest.mark.parametrize("dim", (2, 3))
+@pytest.mark.parametrize("seed", range(40))
+def test_moved_by_its_depth_it_touches(dim, seed):
+    """The depth times the normal is rational: direction, times its least product with w, over its square. Here it is
+    made whole by that square, and a little more or less of it parts the sets or does not."""
+    d = draw.Draw(f"moved {seed}", dim, "double")
+    a, b = ([d.lattice(9) for _ in range(d.integer(dim, 8))] for _ in (0, 1))
+    truth = solve(points(*a), points(*b), dim)
+    if truth.core_squared:
+        return
+    d, factor = truth.direction, exact.dot(truth.direction, truth.direction)
+    least = min(exact.dot(d, exact.minus(q, p)) for p, q in product(a, b))
+    assert Fraction(least**2, factor) == truth.depth_squared
+    large_a, large_b = ([[c * factor for c in p] for p in found] for found in (a, b))
+    for more, relation in ((1, "apart"), (0, "touching"), (-1, "overlapping"))[: 3 if least else 2]:
+        moved = [[x + (more - least) * c for x, c in zip(p, d)] for p in large_b]
+        assert solve(points(*large_a), points(*moved), dim).relation == relation
+    vector = [exact.root(truth.depth_squared, True) * c for c in truth.normal]
+    assert all(abs(factor * x + least * c) < Fraction(1, 10**30) for x, c in zip(vector, d))
 
 
 # ---- brute force: every simplex of every corral
@@ -271,6 +362,39 @@ def test_brute_force(dim, seed):
         ws = {tuple(y - x for x, y in zip(p, q)) for p, q in product(a, b)}
         parted = any(any(n) and min(proof.dot(n, w) for w in ws) >= 0 for n in normals(ws, dim) | {(0,) * dim})
         assert truth.relation == ("touching" if parted else "overlapping")
+        assert truth.depth_squared == depth_of_all(a, b, dim)
+
+
+def depth_of_all(a, b, dim):
+    """The squared depth of points that meet, as the least h over all normals. A facet of the differences is at right
+    angles to edges of a or b."""
+    edges = {exact.minus(q, p) for found in (a, b) for p, q in product(found, found) if p < q}
+    edges = {exact.reduced(e, 0)[0] for e in edges} | {tuple(int(i == j) for j in range(dim)) for i in range(dim)}
+    if dim == 2:
+        found = {(-y, x) for x, y in edges}
+    else:
+        found = {tuple(proof.normal([(0, 0, 0), e, f])) for e, f in combinations(sorted(edges), 2)}
+        found = {exact.reduced(n, 0)[0] for n in found if any(n)}
+    found |= {tuple(-x for x in n) for n in found}
+    widths = ((max(exact.dot(n, q) for q in b) - min(exact.dot(n, p) for p in a), exact.dot(n, n)) for n in found)
+    return min(Fraction(h * h, square) for h, square in widths)
+
+
+@pytest.mark.parametrize("dim", (2, 3))
+@pytest.mark.parametrize("reach, most", [(1, 4), (1, 12), (2, 5), (2, 10), (9, 5), (60, 4)])
+def test_depth_by_brute_force(dim, reach, most):
+    """Lattices full of ties, of corners in one plane or line, and of flat sets; and wide ones, with none."""
+    met = deep = 0
+    for seed in range(60):
+        d = draw.Draw(f"depth {reach} {most} {seed}", dim, "double")
+        a, b = ([d.lattice(reach) for _ in range(d.integer(1, most))] for _ in (0, 1))
+        b = [[x // d.choice((1, 1, 2)) for x in p] for p in b]
+        truth = solve(points(*a), points(*b), dim)
+        if truth.core_squared == 0:
+            assert truth.depth_squared == depth_of_all(a, b, dim)
+            assert exact.distance(points(*b), points(*a), dim).depth_squared == truth.depth_squared
+            met, deep = met + 1, deep + (truth.relation == "overlapping")
+    assert met >= 5 and deep >= 3
 
 
 def test_brute_force_meets_every_relation():
@@ -317,6 +441,53 @@ def test_lies_are_noticed():
         proof.prove(truth, a, moved_by(d, b, Fraction(1, 2**40)), 3)
 
 
+def depth_lies(truth):
+    """The truth of sets that meet with one thing wrong."""
+    nudge = 1 + Fraction(1, 10**12)
+    low, high = truth.separation
+    first, *others = truth.facets
+    yield {"depth_squared": truth.depth_squared * nudge}
+    yield {"depth_squared": truth.depth_squared / nudge}
+    yield {"depth_squared": Fraction(0)}
+    yield {"depth_squared": None}
+    yield {"separation": (low * nudge, high * nudge)}
+    yield {"separation": (low / nudge, high / nudge)}
+    yield {"separation": (low * nudge, high / nudge)}
+    yield {"separation": (-high, -low)}
+    yield {"relation": "touching"}
+    yield {"direction": None}
+    yield {"direction": tuple(-c for c in truth.direction)}
+    yield {"direction": (truth.direction[0] * 1001 // 1000 + 1, *truth.direction[1:])}
+    yield {"facets": ()}
+    yield {"facets": tuple(others)}
+    yield {"facets": (*truth.facets, first)}
+    yield {"corners": tuple((b, a) for a, b in truth.corners)}
+    yield {"corners": tuple((tuple(2 * c for c in a), tuple(2 * c for c in b)) for a, b in truth.corners)}
+
+
+@pytest.mark.parametrize("dim", (2, 3))
+def test_lies_about_a_depth_are_noticed(dim):
+    d = draw.Draw("deep lies", dim, "double")
+    a, b = d.place(d.hull(8)), d.place(d.hull(8), p=[0.5, 0.25, 0.125][:dim])
+    truth = solve(a, b, dim)
+    assert truth.depth_squared > 0
+    for lie in depth_lies(truth):
+        with pytest.raises(exact.Unproven):
+            proof.prove(dataclasses.replace(truth, **lie), a, b, dim)
+    for step in (Fraction(1, 2**40), -Fraction(1, 2**40)):
+        with pytest.raises(exact.Unproven):
+            proof.prove(truth, a, moved_by(d, b, step), dim)
+
+
+def test_a_depth_along_a_wrong_axis_is_noticed():
+    """True along its direction, but there is a shorter way out."""
+    a, b = box(1, 1, 1), box(1, 1, 1, p=[1.5, 1, 0])
+    truth, longer = solve(a, b, 3), {"depth_squared": Fraction(1), "separation": (Fraction(-1), Fraction(-1))}
+    assert truth.depth_squared == Fraction(1, 4)
+    with pytest.raises(exact.Unproven, match="a facet nearer"):
+        proof.prove(dataclasses.replace(truth, direction=(0, 1, 0), **longer), a, b, 3)
+
+
 def moved_by(d, shape, step):
     return draw.moved(d, shape, [step] * d.dim)
 
@@ -338,7 +509,9 @@ def test_touching_and_overlapping_are_not_mistaken():
     truth = solve(a, b, 3)
     assert truth.relation == "touching" and solve(a, deeper, 3).relation == "overlapping"
     with pytest.raises(exact.Unproven):
-        proof.prove(dataclasses.replace(exact.distance(a, deeper, 3), direction=(1, 0, 0)), a, deeper, 3)
+        proof.prove(dataclasses.replace(exact.distance(a, deeper, 3), direction=(0, 1, 0)), a, deeper, 3)
+    with pytest.raises(exact.Unproven):
+        proof.prove(dataclasses.replace(exact.distance(a, deeper, 3), relation="touching"), a, deeper, 3)
     with pytest.raises(exact.Unproven):
         proof.prove(dataclasses.replace(truth, direction=(1, 1, 0)), a, b, 3)
 

@@ -11,8 +11,11 @@ w = b - a. In exact arithmetic it needs no tolerance, meets no degenerate case a
     corral     affinely independent points w whose affine hull is nearest to 0 inside their simplex, at v
     certificate v.w >= v.v for every w, which two support calls decide
 
-Polytopes are solved exactly. Round sets give support points rounded into the set, and support values rounded up:
-the corral then proves an upper bound, a direction a lower one, and the two are driven together.
+Polytopes are solved exactly. Where they meet, a polytope of points w is grown about 0 until its nearest facet is one of
+the whole: that far 0 is from outside, and this depth is the least translation that separates.
+
+Round sets give support points rounded into the set, and support values rounded up: the corral then proves an upper
+bound, a direction a lower one, and the two are driven together.
 
     >>> sphere = {"shape": "sphere", "r": 1, "pose": [1, 0, 0, 3, 0, 1, 0, 0, 0, 0, 1, 0]}
     >>> truth = distance({"shape": "box", "half": [1, 1, 1]}, sphere)
@@ -25,6 +28,7 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations
 from math import gcd, isfinite, isqrt
 
 APART, TOUCHING, OVERLAPPING = "apart", "touching", "overlapping"
@@ -50,14 +54,17 @@ class Truth:
     exact: bool  # both are polytopes, grown or not
     lower: Fraction  # <= the distance
     upper: Fraction  # >= the distance
-    separation: tuple | None  # bracket of the signed separation; None where the cores meet, or may
+    separation: tuple | None  # bracket of the signed separation; None where round cores meet, or may
     core_squared: Fraction | None  # squared distance of the cores, exact; None for round sets
+    depth_squared: Fraction | None  # squared depth of the cores, exact; None for round sets and where they are apart
     scale: Fraction  # largest |coordinate| of either body, grown, from the midpoint of a closest pair
     point_a: tuple  # a closest pair; meeting, one point of both
     point_b: tuple
-    normal: tuple | None  # unit, from a to b; None where the sets overlap by their cores
+    normal: tuple | None  # unit, from a to b; None where the cores are round and overlap
     corral: tuple  # the certificate: (weight, point of core a, point of core b), ...
-    direction: tuple | None  # the certificate: separates the cores; None where they overlap
+    direction: tuple | None  # the certificate: the least d.w over all w is the cores' separation times |d|; or None
+    corners: tuple  # the certificate of a depth: (point of core a, point of core b), ...; each gives a w
+    facets: tuple  # of which of them: a closed shell about 0, nowhere nearer than the depth; () only at depth 0
     steps: int
 
 
@@ -372,14 +379,14 @@ class Pair:
         self.ra, self.rb = ra << (self.grid - er), rb << (self.grid - er)
         self.exact = not (self.a.round or self.b.round)
 
-    def farthest(self, d, extra=0, shift=None):
-        """The w = b - a least along d, with its a and b, and a bound h <= d.w over all w.
-        All of it on a grid finer by extra bits, and moved by minus shift there."""
+    def farthest(self, d, shift=None):
+        """The w = b - a least along d, with its a and b, and a bound h <= d.w over all w. All of it moved by minus
+        shift."""
         a, ha = self.a.support(d)
         b, hb = self.b.support(tuple(-x for x in d))
         w, h = minus(b, a), -hb - ha
         if shift is not None:
-            w, h = minus([x << extra for x in w], shift), (h << extra) - dot(d, shift)
+            w, h = minus(w, shift), h - dot(d, shift)
         return (w, a, b), h
 
     def boxes(self):
@@ -434,7 +441,7 @@ class Nearest:
         return root(Fraction(dot(self.v, self.v), self.scale**2), True)
 
 
-def nearest(pair, corral, weights, tolerance=None, extra=0, shift=None):
+def nearest(pair, corral, weights, tolerance=None, shift=None):
     """Wolfe's algorithm from a simplex and a point in it. Without a tolerance (polytopes) it ends at the optimum;
     with one, in units of the grid, as soon as upper - lower is within it and a direction separates. Where none does,
     it looks a little further: a simplex that is flat or small may pass by 0 and yet lie deep in the set."""
@@ -448,7 +455,7 @@ def nearest(pair, corral, weights, tolerance=None, extra=0, shift=None):
             return end
         steps += 1
         for d in dict.fromkeys((shorten(v), v)):
-            found, h = pair.farthest(d, extra, shift)
+            found, h = pair.farthest(d, shift)
             nearer = dot(v, found[0]) * scale < square
             if tolerance is not None and h > 0 and h / root(Fraction(dot(d, d)), True) > lower:
                 lower, direction = h / root(Fraction(dot(d, d)), True), d
@@ -470,26 +477,110 @@ def interior(pair, boxes, end):
     """Whether a ball about 0 lies in the set of all w, where end.v is 0; if not, the direction that says so.
 
     A corral that spans the space holds 0 inside. Otherwise look at points around 0: if all are in the set, so is
-    a ball. For polytopes they are so near that no face passes between them and 0. One that is outside then has its
-    nearest point on a face through 0, and that face's plane separates."""
+    a ball. For round sets only: polytopes have their depth."""
     if len(end.corral) == pair.dim + 1:
         return True, None
     low, high = (pick(pick(box[k]) for box in boxes) for k, pick in ((0, min), (1, max)))
-    if pair.exact:
-        # integer points no further than L apart: a line or plane through some of them that misses 0 misses it by
-        # 1 / L**2 at least; with room for square roots of 3
-        finer, step, tolerance = 2 * pair.dim * (2 * (high - low) + 1).bit_length() + 8, 1, None
-    else:
-        finer, step = 0, (high - low >> 60) + 1
-        tolerance = Fraction(step, 1000)
+    step = (high - low >> 60) + 1
     weights = [Fraction(n, end.total) for n in end.weights]
     axes = [tuple(step * (i == j) for j in range(pair.dim)) for i in range(pair.dim)]
     for shift in axes + [(-step,) * pair.dim]:
-        corral = [(minus([x << finer for x in w], shift), a, b) for w, a, b in end.corral]
-        moved = nearest(pair, corral, weights, tolerance, finer, shift)
+        corral = [(minus(w, shift), a, b) for w, a, b in end.corral]
+        moved = nearest(pair, corral, weights, Fraction(step, 1000), shift)
         if any(moved.v):
             return False, moved.v
     return True, None
+
+
+# --------------------------------------------------------------------------------------------------- the depth
+# Of cores that meet: the set of all w holds 0. The depth is the least h(n) / |n| over all n, h(n) the largest n.w, and
+# moving b by it along -n separates. A spot is a w with its a and b.
+
+
+@dataclass
+class Facet:
+    corners: tuple  # places among the spots, ascending
+    n: tuple  # outwards
+    h: int  # n.w at the corners; nowhere in the hull of the spots is it larger
+    level: Fraction  # squared distance of its plane from 0
+
+
+@dataclass
+class Shell:
+    """A direction that realises the depth, and the facets of a hull of spots, none of them nearer to 0."""
+
+    squared: Fraction
+    direction: tuple
+    spots: list
+    facets: list
+
+
+def across(edges, dim):
+    """A vector at right angles to fewer than dim independent edges, not 0."""
+    edges = edges or [(1,) + (0,) * (dim - 1)]
+    if dim == 2:
+        ((x, y),) = edges
+        n = (y, -x)
+    else:
+        if len(edges) == 1:
+            least = min(range(dim), key=lambda i: abs(edges[0][i]))
+            edges = edges + [tuple(int(i == least) for i in range(dim))]
+        (p, q, r), (x, y, z) = edges
+        n = (q * z - r * y, r * x - p * z, p * y - q * x)
+    return reduced(n, 0)[0]
+
+
+def widen(pair, spots):
+    """The spots, affinely independent with 0 in their hull, and more of them until they span the space; or until a
+    direction says that none is needed, 0 being on the border. Across the flat of the spots 0 and they are level: no w
+    below them, and the plane through them parts the sets, be the set of all w flat or not."""
+    while len(spots) <= pair.dim:
+        d = across([minus(s[0], spots[0][0]) for s in spots[1:]], pair.dim)
+        spot, least = pair.farthest(d)
+        if least == 0:
+            return spots, d
+        spots = spots + [spot]
+    return spots, None
+
+
+def facet(corners, spots, inside):
+    """The facet through these corners, inside being on its inner side; that is the sum of the first dim + 1 spots."""
+    first = spots[corners[0]][0]
+    n = across([minus(spots[i][0], first) for i in corners[1:]], len(first))
+    if dot(n, inside) > dot(n, first) * (len(first) + 1):
+        n = tuple(-x for x in n)
+    h = dot(n, first)
+    return Facet(corners, n, h, Fraction(h * h, dot(n, n)))
+
+
+def grow(facets, spots, inside):
+    """The facets of the hull with the last spot. Those that it lies beyond give way to facets from their rim to it.
+    One whose plane holds it stays, and is made larger by new ones in that plane. No new one is flat: in line with a
+    side of a facet, and so in its plane, is nothing that lies beyond it."""
+    w, rim = spots[-1][0], set()
+    kept = [f for f in facets if dot(f.n, w) <= f.h]
+    for f in facets:
+        if dot(f.n, w) > f.h:
+            rim ^= set(combinations(f.corners, len(w) - 1))  # a side between two of them comes twice
+    return kept + [facet(side + (len(spots) - 1,), spots, inside) for side in sorted(rim)]
+
+
+def depth(pair, corral):
+    """The depth of polytopes that meet, from a corral whose hull holds 0, as then do all later ones. Its nearest facet
+    is a lower bound, and once no w lies beyond that an upper one too. It comes to that: each spot is a new corner."""
+    spots, border = widen(pair, corral)
+    if border:
+        return Shell(Fraction(0), border, spots, [])
+    inside = tuple(map(sum, zip(*(s[0] for s in spots))))
+    facets = [facet(corners, spots, inside) for corners in combinations(range(len(spots)), pair.dim)]
+    while True:
+        near = min(facets, key=lambda f: f.level)
+        direction = tuple(-x for x in near.n)
+        spot, least = pair.farthest(direction)
+        if least == -near.h:
+            return Shell(near.level, direction, spots, facets)
+        spots = spots + [spot]
+        facets = grow(facets, spots, inside)
 
 
 # ------------------------------------------------------------------------------------------------------ answers
@@ -515,8 +606,14 @@ def judge(pair, boxes, end):
     """The truth, from the nearest pair of the cores."""
     unit, radii = Fraction(1, 1 << pair.grid), pair.ra + pair.rb
     square = Fraction(dot(end.v, end.v), end.scale**2)
-    proven, direction, separation = True, end.direction, None
-    if square == 0:
+    proven, direction, separation, shell = True, end.direction, None, None
+    if square == 0 and pair.exact:
+        shell = depth(pair, end.corral)
+        direction = shell.direction
+        separation = tuple(rounded(-(root(shell.squared, up) + radii) * unit, not up) for up in (True, False))
+        relation = OVERLAPPING if shell.squared or radii else TOUCHING
+        lower = upper = Fraction(0)
+    elif square == 0:  # round: the separation stays open, a smooth set has no facets to count
         relation, direction, proven = judge_meeting(pair, boxes, end, radii)
         lower = upper = Fraction(0)
     elif direction is None:  # the cores may meet
@@ -540,6 +637,7 @@ def judge(pair, boxes, end):
         upper=upper,
         separation=separation,
         core_squared=square * unit * unit if pair.exact else None,
+        depth_squared=shell and shell.squared * unit * unit,
         scale=rounded(spread(pair, boxes, point_a, point_b) * unit, True),
         point_a=tuple(x * unit for x in point_a),
         point_b=tuple(x * unit for x in point_b),
@@ -549,6 +647,8 @@ def judge(pair, boxes, end):
             for n, (_, a, b) in zip(end.weights, end.corral)
         ),
         direction=direction,
+        corners=tuple(tuple(tuple(x * unit for x in p) for p in s[1:]) for s in shell.spots) if shell else (),
+        facets=tuple(f.corners for f in shell.facets) if shell else (),
         steps=end.steps,
     )
 
@@ -563,17 +663,15 @@ def apart_exactly(square, radii):
 
 
 def judge_meeting(pair, boxes, end, radii):
-    """The cores share a point: relation, separating direction, whether it is proven. Round sets that touch are proven
+    """Round cores share a point: relation, separating direction, whether it is proven. Sets that touch are proven
     to where a plane across an axis parts them; the general case no finite search decides."""
     inside, direction = (True, None) if radii else interior(pair, boxes, end)
     if inside:
         return OVERLAPPING, None, True
     axes = [tuple(sign * (i == j) for j in range(pair.dim)) for i in range(pair.dim) for sign in (1, -1)]
-    for d in [direction] + ([] if pair.exact else axes):
+    for d in [direction] + axes:
         if pair.farthest(d)[1] >= 0:
             return TOUCHING, d, True
-    if pair.exact:
-        raise Unproven("touching without a plane between")
     return TOUCHING, direction, False
 
 
