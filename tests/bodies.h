@@ -140,6 +140,15 @@ static inline void bind(body *b)
     }
 }
 
+/* Both the origin, where a support of the test's own is to take its place. */
+static inline void start_points(body *a, body *b)
+{
+    start_body(a, ORIGIN);
+    start_body(b, ORIGIN);
+    bind(a);
+    bind(b);
+}
+
 static inline void print_numbers(FILE *f, const real *x, int n)
 {
     for (int i = 0; i < n; i++) {

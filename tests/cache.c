@@ -208,10 +208,7 @@ static void after_slack(void **state)
     V(result) cold, r;
     (void)state;
     start_cache();
-    start_body(&a, ORIGIN);
-    start_body(&b, ORIGIN);
-    bind(&a);
-    bind(&b);
+    start_points(&a, &b);
     a.shape.support = cube_of_unknown_reach;
     b.pose.p[0] = 5;
     assert_int_equal(V(distance)(&a.shape, &b.shape, NULL, &cold), GJK_OK);

@@ -12,14 +12,11 @@ static body a, b, part[4];
 static int fresh(void **state)
 {
     (void)state;
-    start_body(&a, ORIGIN);
-    start_body(&b, ORIGIN);
+    start_points(&a, &b);
     for (int i = 0; i < 4; i++) {
         start_body(&part[i], ORIGIN);
         bind(&part[i]);
     }
-    bind(&a);
-    bind(&b);
     return 0;
 }
 

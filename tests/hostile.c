@@ -345,10 +345,7 @@ static void expect_distance(int swap, int tight, const double *said, int crossed
     o.tight = (uint32_t)tight;
     memcpy(script.said, said, sizeof script.said);
     script.calls = 0;
-    start_body(&a, ORIGIN);
-    start_body(&b, ORIGIN);
-    bind(&a);
-    bind(&b);
+    start_points(&a, &b);
     b.shape.support = scripted_support;
     b.pose.p[0] = 3;
     int status = ask(0, swap ? &b.shape : &a.shape, swap ? &a.shape : &b.shape, &o, &r);

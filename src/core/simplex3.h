@@ -5,14 +5,14 @@
 
 #include "corners.h"
 
-/* Squared sines of a triangle's angle: how narrow it is, whatever its size. What they are measured by is in
- * docs/bounds.md.
+/* How narrow a triangle is: squared sines of its angle, ratios of its own areas, so that its size does not enter. They
+ * choose between two ways to the same point; no bracket depends on them. Measured in docs/bounds.md.
  *
  * Its normal is off by UNIT over the sine. Below SLENDER that shows along the longer side, and is taken out there.
  * Below NARROW the rest shows too, and the triangle is projected onto side by side: v is then square to the longer side
  * to a UNIT, but off by a UNIT of the corners, however near it is. */
-#define SLENDER ((real)1e-2)
-#define NARROW ((real)1e-5)
+#define SLENDER ((real)1e-2) /* times |a|^2 |b|^2, against |a x b|^2: an angle of 0.1 */
+#define NARROW ((real)1e-5)  /* likewise: 0.003 */
 
 static inline vec cross(vec a, vec b)
 {
