@@ -53,7 +53,7 @@ typedef struct gjk3_shape {
  * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer,
  * the poses and radii inside a couple included: zero the count after such an edit. */
 typedef struct gjk3_cache {
-    double a[4][3], b[4][3];     /* points of the two sets, in their own coordinates */
+    double a[4][3], b[4][3];     /* points of the two sets, in coordinates of their own */
     double reach_a, reach_b;     /* of the two sets */
     gjk3_support_fn *support[2]; /* whose points they are */
     const void *data[2];

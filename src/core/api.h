@@ -111,16 +111,26 @@ static int tell(search *q, const goal *g, real *upper, enum end *end)
     return told != FAULT;
 }
 
+/* The power of two that brings the largest of the pair, the radius and how far it is from the world's origin to size:
+ * to what is reckoned in that unit no other makes a difference. */
+static real level_of(const difference *d, real radius, real far)
+{
+    return smaller(d->scale, smaller(leveler(radius), leveler(far)));
+}
+
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
 static void bracket(result *r, const difference *d, real lower, real upper, real radius)
 {
-    real near = lower * d->unscale, far = upper * d->unscale;
-    real doubt_near = radius > 0 ? 4 * UNIT * (size(near) + radius) : 0;
-    real doubt_far = radius > 0 ? 4 * UNIT * (size(far) + radius) : 0;
-    r->lower = larger(near - radius - doubt_near, -REAL_MAX);
-    r->upper = far - radius + doubt_far;
-    if (d->wild && size(near) < REAL_MIN) r->lower -= 2 * TINY; /* unscaled by a rounding */
-    if (d->wild && size(far) < REAL_MIN) r->upper += 2 * TINY;
+    real level = level_of(d, radius, 0), down = level * d->unscale, up = 1 / level;
+    real near = lower * down, far = upper * down, off = radius * level;
+    if (radius > 0) {
+        near = near - off - 4 * UNIT * (size(near) + off);
+        far = far - off + 4 * UNIT * (size(far) + off);
+    }
+    r->lower = larger(near * up, -REAL_MAX);
+    r->upper = far * up;
+    if (size(r->lower) < REAL_MIN && near != 0) r->lower -= 2 * TINY; /* it was rounded on the way out */
+    if (size(r->upper) < REAL_MIN && far != 0) r->upper += 2 * TINY;
 }
 
 /* At the edge of the numbers where these end before the body does. */
@@ -130,35 +140,37 @@ static vec in_range(vec x)
     return x;
 }
 
-/* The body's point in the caller's frame. */
-static vec witness_of(const body *k, const pose *o, const simplex *s, const real weight[], size_t member,
-                      const difference *d)
+/* The body's point in the world, times level; down leads there from the search's frame. */
+static vec witness_of(const body *k, const pose *o, const simplex *s, const real weight[], size_t member, real down,
+                      real level)
 {
     vec x = blend(s, weight, member, k->grain);
-    if (!k->posed) return mul(x, d->unscale);
-    vec p = load(o->p), from = mul(p, d->scale);
-    x = map(k->m, x);
-    return in_range(bounded(peak(from)) ? mul(add(x, from), d->unscale) : add(mul(x, d->unscale), p));
+    if (!k->posed) return mul(x, down);
+    return add(mul(map(k->m, x), down), mul(load(o->p), level));
 }
+
+static real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
 
 /* The witnesses, from the cores' to the shapes': each moves toward the other by its radius, or, where the radii reach
  * across, both move to one point between. */
 static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b)
 {
-    vec on_a = witness_of(&q->d.a, a->pose, &q->s, weight, offsetof(vertex, x), &q->d);
-    vec on_b = witness_of(&q->d.b, b->pose, &q->s, weight, offsetof(vertex, y), &q->d);
+    real radius = a->radius + b->radius, level = level_of(&q->d, radius, larger(far_out(a), far_out(b)));
+    real down = level * q->d.unscale;
+    vec on_a = witness_of(&q->d.a, a->pose, &q->s, weight, offsetof(vertex, x), down, level);
+    vec on_b = witness_of(&q->d.b, b->pose, &q->s, weight, offsetof(vertex, y), down, level);
     vec way = blend(&q->s, weight, offsetof(vertex, w), 1);
-    real l = length(way), radius = a->radius + b->radius;
-    if (r->upper <= 0 || l * q->d.unscale < radius) {
+    real l = length(way);
+    if (r->upper <= 0 || l * down < radius * level) {
         real share = a->radius > 0 ? a->radius / radius : 0;
         on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
     } else if (radius > 0) {
         vec toward_b = l > 0 ? mul(way, -1 / l) : q->normal;
-        on_a = add(on_a, mul(toward_b, a->radius));
-        on_b = sub(on_b, mul(toward_b, b->radius));
+        on_a = add(on_a, mul(toward_b, a->radius * level));
+        on_b = sub(on_b, mul(toward_b, b->radius * level));
     }
-    store(r->point_a, in_range(on_a));
-    store(r->point_b, in_range(on_b));
+    store(r->point_a, in_range(mul(on_a, 1 / level)));
+    store(r->point_b, in_range(mul(on_b, 1 / level)));
 }
 
 /* The search has ended at what rounding can tell, and that is not enough: the sign is open; or so near to contact the
@@ -176,10 +188,11 @@ static int unanswered(const search *q, const result *r, const options *o, const 
     return o->tight || q->stuck || coarse(q, upper);
 }
 
-/* The bracket of the distance is wider than asked. */
-static int wanting(const result *r, const options *o)
+/* The bracket of the distance is as narrow as asked. */
+static int narrow(const result *r, const options *o, real level)
 {
-    return r->upper > 0 && r->upper - larger(r->lower, 0) > o->abs_tol + o->rel_tol * r->upper;
+    real asked = o->abs_tol * level + o->rel_tol * (r->upper * level);
+    return (r->upper - larger(r->lower, 0)) * level <= asked;
 }
 
 /* Finishes the search without rounding, and replaces what the result says of the distance. OPEN, FAULT: that can't be
@@ -225,7 +238,7 @@ static enum end take_further(search *q, const shape *a, const shape *b, const op
                              real weight[], result *r)
 {
     if (g->exact) return EXACT && unanswered(q, r, o, g, upper, weight) ? tighten(q, a, b, g, r, weight) : FAULT;
-    int open = g->sign_only ? r->lower <= 0 && r->upper > 0 : wanting(r, o);
+    int open = r->upper > 0 && (g->sign_only ? r->lower <= 0 : !narrow(r, o, level_of(&q->d, g->radius, 0)));
     return open ? ask_sister(q, a, b, o, g, r) : FAULT;
 }
 
@@ -248,13 +261,20 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     return further == FAULT ? end : further;
 }
 
-static int distance_status(const result *r, const options *o, enum end end, real rounding)
+/* The radius in it, the bracket may be this wide and still be as tight as rounding allows. */
+static int tight_enough(const result *r, const difference *d, real radius, real level)
 {
-    real width = r->upper - r->lower, asked = o->abs_tol + o->rel_tol * r->upper;
+    real rounding = (4 * d->doubt + 2 * d->slack) * (level * d->unscale) + 16 * UNIT * (radius * level);
+    return (r->upper - r->lower) * level <= rounding;
+}
+
+static int distance_status(const result *r, const options *o, enum end end, const difference *d, real radius)
+{
+    real level = level_of(d, radius, 0);
     if (o->cutoff > 0 && r->lower > o->cutoff) return GJK_DECIDED;
-    if (width <= asked || end == WITHIN) return GJK_OK;
+    if (narrow(r, o, level) || end == WITHIN) return GJK_OK;
     if (end == OPEN) return GJK_LIMIT;
-    return o->abs_tol == 0 && o->rel_tol == 0 && width <= rounding ? GJK_OK : GJK_FLOOR;
+    return o->abs_tol == 0 && o->rel_tol == 0 && tight_enough(r, d, radius, level) ? GJK_OK : GJK_FLOOR;
 }
 
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
@@ -280,8 +300,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    real rounding = 4 * q.d.doubt * q.d.unscale + 2 * q.d.slack * q.d.unscale + 16 * UNIT * radius;
-    r.status = distance_status(&r, &o, end, rounding);
+    r.status = distance_status(&r, &o, end, &q.d, radius);
     *out = r;
     return r.status;
 }

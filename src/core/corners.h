@@ -7,7 +7,7 @@
 
 typedef struct vertex {
     vec w;    /* of the difference, in the search's frame and scale */
-    vec x, y; /* of A and of B, each in its own coordinates */
+    vec x, y; /* of A and of B, each in its own coordinates and unit */
 } vertex;
 
 typedef struct simplex {

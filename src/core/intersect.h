@@ -33,15 +33,15 @@ static void move(search *q, vec c)
     q->sidesteps = 0;
 }
 
-/* probe with one ball; STILL: it is too small for the noise of the corners. */
-static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
+/* probe with a ball of radius r; STILL: it is too small for the noise of the corners. */
+static enum end probe_ball(search *q, real r, int max_steps, real *upper)
 {
     search p = *q;
     real weight[DIM + 1];
-    goal g = {.within = (real)0.75 * ball, .abs_tol = -1, .early = 1, .max_steps = max_steps};
+    goal g = {.within = (real)0.75 * r, .abs_tol = -1, .early = 1, .max_steps = max_steps};
     enum end end = WITHIN;
     for (int k = 0; k <= DIM && end == WITHIN; k++) {
-        vec t = mul(outpost(k), ball);
+        vec t = mul(outpost(k), r);
         move(&p, add(q->d.c, t));
         if (certify(&p, weight) < g.within) continue;
         if (p.s.n > DIM) end = INSIDE;
@@ -49,7 +49,7 @@ static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
         else end = look(&p) ? descend(&p, &g) : FAULT;
         if (end == INSIDE && room(&p.s) > p.d.doubt) end = WITHIN;
         if (end == INSIDE || end == STILL) end = certify(&p, weight) < g.within ? WITHIN : STILL;
-        real lower = p.lower - dot(p.normal, t) - 32 * UNIT * ball;
+        real lower = p.lower - dot(p.normal, t) - 32 * UNIT * r;
         if (end == BEYOND && lower > q->lower) {
             q->lower = lower;
             q->normal = p.normal;
@@ -57,7 +57,7 @@ static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
     }
     q->steps = p.steps;
     q->d.calls = p.d.calls;
-    if (end == WITHIN) *upper = smaller(*upper, g.within - ball);
+    if (end == WITHIN) *upper = smaller(*upper, g.within - r);
     return end;
 }
 
@@ -67,8 +67,7 @@ static enum end probe_ball(search *q, real ball, int max_steps, real *upper)
 static enum end probe(search *q, int max_steps, real *upper)
 {
     enum end end = STILL;
-    for (int ball = 2; end == STILL && ball <= 128; ball *= 8)
-        end = probe_ball(q, (real)ball * q->d.doubt, max_steps, upper);
+    for (int r = 2; end == STILL && r <= 128; r *= 8) end = probe_ball(q, (real)r * q->d.doubt, max_steps, upper);
     return end;
 }
 

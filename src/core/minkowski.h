@@ -18,16 +18,20 @@
 #define GJK_CORE_MINKOWSKI_H
 
 #include "exact.h"
-#include "reach.h"
+#include "shapes.h"
 #include "simplex.h"
 
 typedef struct body {
     support_fn *support;
+    support_in *in; /* of a ready-made round set: asked instead, in the set's own unit */
     const void *data;
+    real unit; /* a power of two: points and reach are the caller's times that */
+    int told;  /* the size was known before any call; */
+    int none;  /*   there is none: all points are 0 */
     int posed;
     real m[DIM * DIM]; /* the pose's map; once the scale is known, from points of size 1 to the scaled frame */
     real stretch;      /* bounds the pose's map */
-    real reach;        /* bounds the set's points; 0: not known yet */
+    real reach;        /* bounds the set's points, in its unit; 0: not known yet */
     real grain;        /* the power of two that brings the set's points to size 1; without pose, to the frame */
     real ease, lift;   /* powers of two for directions where sizes are wild: to size 1 for m, up to the set's size */
 } body;
@@ -42,6 +46,9 @@ typedef struct difference {
     int loose;           /* a reach was surveyed with slack, which makes it none for other queries */
     int calls;
 } difference;
+
+/* The reach in the caller's unit, and what there is of it. */
+static inline real extent(const body *k) { return k->none ? 0 : k->reach / k->unit; }
 
 /* Within the reach, and with that finite; the reach not known, just finite. */
 static inline int fits(const body *k, vec x)
@@ -61,7 +68,7 @@ static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
     if (d->wild) dir = mul(dir, k->lift);
     d->calls++;
     *x = nowhere();
-    *reach = k->support(k->data, dir.c, x->c);
+    *reach = k->in ? k->in(k->unit, k->data, dir, x) : k->support(k->data, dir.c, x->c);
     return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);
 }
 
@@ -113,13 +120,22 @@ static int measure(difference *d, body *k, real said, real slack)
     return k->reach <= REAL_MAX;
 }
 
+/* Of directions, so that the heights of a set of size 1 in that unit do not underflow. */
+static real lifting(real unit) { return smaller(larger(unit, 1), LIFT); }
+
 static void seize(body *k, const shape *s)
 {
     k->support = s->support;
     k->data = s->data;
     k->posed = s->pose != NULL;
-    k->stretch = k->grain = k->ease = k->lift = 1;
+    k->stretch = k->grain = k->ease = 1;
     k->reach = 0;
+    view set = know(s);
+    k->in = set.in;
+    k->told = set.size >= 0;
+    k->none = set.size == 0;
+    k->unit = set.in ? set.unit : 1;
+    k->lift = set.in ? 1 : lifting(set.unit);
     if (!k->posed) return;
     for (int i = 0; i < DIM * DIM; i++) k->m[i] = s->pose->m[i];
     k->stretch = stretch(k->m);
@@ -130,23 +146,27 @@ static void seize(body *k, const shape *s)
  * exponent, whose size need not be a number of the format; and what underflows all the same has no weight. */
 static void fit(body *k, real scale, int wild)
 {
-    k->grain = k->posed ? leveler(k->reach) : scale;
+    real level = leveler(k->reach);
+    k->grain = k->posed ? level : scale / k->unit;
+    real plain = k->none ? 0 : scale / (k->unit * level);
     for (int i = 0; i < DIM * DIM && k->posed; i++)
-        k->m[i] = wild ? raised(k->m[i], exponent_of(scale) - exponent_of(k->grain)) : k->m[i] * (scale / k->grain);
+        k->m[i] = !wild || k->none ? k->m[i] * plain
+                                   : raised(k->m[i], exponent_of(scale) - exponent_of(k->unit) - exponent_of(level));
     if (!wild) return;
     k->ease = k->posed ? leveler(larger(stretch(k->m), REAL_MIN)) : 1;
-    k->lift = smaller(larger(leveler(k->reach), 1), LIFT);
+    if (!k->in) k->lift = lifting(level);
 }
 
 /* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
 static int settle(difference *d, real slack)
 {
-    real a = d->a.stretch * d->a.reach, b = d->b.stretch * d->b.reach, c = spread(d->c), whole = a + b + c;
+    real far_a = extent(&d->a), far_b = extent(&d->b);
+    real a = d->a.stretch * far_a, b = d->b.stretch * far_b, c = spread(d->c), whole = a + b + c;
     if (!(whole <= REAL_MAX / 4)) return 0;
     d->scale = leveler(whole);
     d->unscale = 1 / d->scale;
-    d->wild = unruly(d->scale) || unruly(d->a.reach) || unruly(d->b.reach) || unruly(d->a.stretch * d->scale) ||
-              unruly(d->b.stretch * d->scale);
+    d->wild = unruly(d->scale) || (far_a > 0 && unruly(far_a)) || (far_b > 0 && unruly(far_b)) ||
+              unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale);
     fit(&d->a, d->scale, d->wild);
     fit(&d->b, d->scale, d->wild);
     d->c = mul(d->c, d->scale);
@@ -157,8 +177,8 @@ static int settle(difference *d, real slack)
     d->doubt = UNIT * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
     if (d->wild) { /* products that underflow here, and in the supports where reaches are faint */
         if (whole < REAL_MIN) d->doubt += 64 * TINY * d->scale;
-        if (faint(d->a.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->a.stretch);
-        if (faint(d->b.reach)) d->doubt += 64 * TINY * d->scale * larger(1, d->b.stretch);
+        if (faint(far_a)) d->doubt += 64 * TINY * d->scale * larger(1, d->a.stretch);
+        if (faint(far_b)) d->doubt += 64 * TINY * d->scale * larger(1, d->b.stretch);
     }
     d->slack = 0; /* and no 0 times infinity */
     if (slack > 0)
@@ -198,8 +218,8 @@ static int meet(difference *d, vec v, real slack, vertex *p)
     if (!ask(d, v, p, reach)) return 0;
     if (!measure(d, &d->a, reach[0], slack) || !measure(d, &d->b, reach[1], slack) || !settle(d, slack)) return 0;
     /* now that directions are lifted */
-    if (tiny(d->a.reach) && !farthest(d, &d->a, mul(v, -1), &p->x, &reach[0])) return 0;
-    if (tiny(d->b.reach) && !farthest(d, &d->b, v, &p->y, &reach[1])) return 0;
+    if (!d->a.told && tiny(d->a.reach) && !farthest(d, &d->a, mul(v, -1), &p->x, &reach[0])) return 0;
+    if (!d->b.told && tiny(d->b.reach) && !farthest(d, &d->b, v, &p->y, &reach[1])) return 0;
     p->w = corner_of(d, p->x, p->y);
     return fits(&d->a, p->x) && fits(&d->b, p->y);
 }

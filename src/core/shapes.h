@@ -13,6 +13,19 @@ typedef pub(ball) ball;
 typedef pub(ellipsoid) ellipsoid;
 typedef pub(couple) couple;
 
+/* A set's support in another unit: its point and its reach come times that power of two, so that what is small about a
+ * small set is not lost to underflow on the way. NaN, and no point, where the data describe no set. */
+typedef real support_in(real unit, const void *data, vec dir, vec *out);
+
+/* The same as the contract has it: in the caller's unit. */
+static real in_own_unit(support_in *f, const void *data, const real *dir, real *out)
+{
+    vec x = nowhere();
+    real reach = f(1, data, load(dir), &x);
+    store(out, x);
+    return reach;
+}
+
 /* The answer of data that describe no set. */
 static real refuse(real *out)
 {
@@ -28,9 +41,9 @@ static int sized(const real *sizes, int n)
     return r;
 }
 
-/* A reach: r, with up to 7 relative roundings and some that underflow; the least number for a set of no size, which
- * rounds nothing. */
-static real padded(real r) { return r > 0 ? r * (1 + 8 * UNIT) + 4 * TINY : TINY; }
+/* A reach: r, with up to 7 relative roundings, and some that underflow where r does; the least number for a set of no
+ * size, which rounds nothing. */
+static real padded(real r) { return r > 0 ? r * (1 + 8 * UNIT) + (r < REAL_MIN ? 4 * TINY : 0) : TINY; }
 
 /* A bound on the length, tight for the cube and along the axes, without square roots, safe from overflow in between. */
 static real at_most(vec a)
@@ -156,25 +169,35 @@ GJK_API real pub(support_origin)(const void *unused, const real dir[DIM], real o
     return padded(0);
 }
 
-GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[DIM])
+static real ball_in(real unit, const void *data, vec dir, vec *out)
 {
     const ball *b = data;
-    if (!b || !sized(&b->radius, 1)) return refuse(out);
-    store(out, along(load(dir), b->radius));
-    return padded(b->radius);
+    if (!b || !sized(&b->radius, 1)) return (real)NAN;
+    *out = along(dir, b->radius * unit);
+    return padded(b->radius * unit);
+}
+
+GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[DIM])
+{
+    return in_own_unit(ball_in, data, dir, out);
 }
 
 /* The radii times the unit vector along (radii times dir). Both are brought to size first: what underflows then is far
  * below the rounding. */
-GJK_API real pub(support_ellipsoid)(const void *data, const real dir[DIM], real out[DIM])
+static real ellipsoid_in(real unit, const void *data, vec dir, vec *out)
 {
     const ellipsoid *e = data;
-    if (!e || !sized(e->radii, DIM)) return refuse(out);
-    vec r = load(e->radii), d = unit_size(load(dir)), g = mul(r, leveler(peak(r)));
+    if (!e || !sized(e->radii, DIM)) return (real)NAN;
+    vec r = mul(load(e->radii), unit), d = unit_size(dir), g = mul(r, leveler(peak(r)));
     EACH(g.c[i] *= d.c[i]);
     g = along(g, 1);
-    EACH(out[i] = r.c[i] * g.c[i]);
+    EACH(out->c[i] = r.c[i] * g.c[i]);
     return padded(peak(r));
+}
+
+GJK_API real pub(support_ellipsoid)(const void *data, const real dir[DIM], real out[DIM])
+{
+    return in_own_unit(ellipsoid_in, data, dir, out);
 }
 
 #if DIM == 3
@@ -190,70 +213,250 @@ GJK_API real pub(support_triangle)(const void *data, const real dir[DIM], real o
 }
 
 /* The rim point of the disc of that radius at that height. */
-static void rim(const real *dir, real radius, real height, real *out)
+static vec rim(vec dir, real radius, real height)
 {
-    vec flat = {{dir[0], dir[1], 0}};
-    flat = along(flat, radius);
-    flat.c[2] = height;
-    store(out, flat);
+    dir.c[2] = 0;
+    dir = along(dir, radius);
+    dir.c[2] = height;
+    return dir;
+}
+
+static real disc_in(real unit, const void *data, vec dir, vec *out)
+{
+    const disc *d = data;
+    if (!d || !sized(&d->radius, 1)) return (real)NAN;
+    *out = rim(dir, d->radius * unit, 0);
+    return padded(d->radius * unit);
 }
 
 GJK_API real pub(support_disc)(const void *data, const real dir[DIM], real out[DIM])
 {
-    const disc *d = data;
-    if (!d || !sized(&d->radius, 1)) return refuse(out);
-    rim(dir, d->radius, 0, out);
-    return padded(d->radius);
+    return in_own_unit(disc_in, data, dir, out);
+}
+
+static real cylinder_in(real unit, const void *data, vec dir, vec *out)
+{
+    const cylinder *c = data;
+    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return (real)NAN;
+    vec corner = {{c->radius * unit, c->half_length * unit, 0}};
+    *out = rim(dir, corner.c[0], signed_as(corner.c[1], dir.c[2]));
+    return at_most(corner);
 }
 
 GJK_API real pub(support_cylinder)(const void *data, const real dir[DIM], real out[DIM])
 {
-    const cylinder *c = data;
-    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return refuse(out);
-    rim(dir, c->radius, signed_as(c->half_length, dir[2]), out);
-    vec corner = {{c->radius, c->half_length, 0}};
-    return at_most(corner);
+    return in_own_unit(cylinder_in, data, dir, out);
 }
 
 /* The apex is h up the axis, the rim h down and r out: the rim is farther where r |flat| > 2 h dir_z. */
-GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[DIM])
+static real cone_in(real unit, const void *data, vec dir, vec *out)
 {
     const cone *c = data;
-    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return refuse(out);
-    vec d = load(dir), corner = {{c->radius, c->half_length, 0}};
-    d = unit_size(d);
-    real level = leveler(larger(peak(corner), REAL_MIN)), up = 2 * (c->half_length * level) * d.c[2];
+    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return (real)NAN;
+    vec d = unit_size(dir), corner = {{c->radius * unit, c->half_length * unit, 0}};
+    real level = leveler(larger(peak(corner), REAL_MIN)), up = 2 * (corner.c[1] * level) * d.c[2];
     real flat = root(d.c[0] * d.c[0] + d.c[1] * d.c[1]);
-    if (c->radius * level * flat > up) {
-        rim(dir, c->radius, -c->half_length, out);
-    } else {
-        store(out, axis(2, c->half_length));
-    }
+    *out = corner.c[0] * level * flat > up ? rim(dir, corner.c[0], -corner.c[1]) : axis(2, corner.c[1]);
     return at_most(corner);
 }
+
+GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[DIM])
+{
+    return in_own_unit(cone_in, data, dir, out);
+}
 #endif
+
+/* ---- two as one ---- */
+
+/* What is known of a set before it is asked. */
+typedef struct view {
+    support_in *in; /* of a ready-made round set: to be asked instead */
+    real size;      /* to a binade or two, of a ready-made set; NaN: not known, or no set */
+    real unit;      /* a power of two: the set's size in it is 1; 1 where that is not known */
+} view;
+
+static view know(const shape *s);
+
+/* The direction as the part sees it, of a size that keeps its heights from underflow: those of a part whose size is not
+ * known are then of the size that the couple sees. */
+static vec seen_by(const pose *p, real grows, real unit, vec dir)
+{
+    vec d = levelled(dir);
+    real lift = 16 / leveler(peak(dir));
+    if (p) {
+        if (grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
+        lift = grows > 0 ? lift / leveler(grows) : 0;
+    }
+    lift = larger(lift, unit);
+    return mul(d, smaller(larger(lift, 1), LIFT));
+}
+
+/* The set's own point, times the unit for its size, and its reach alike. It is surveyed where the part does not say:
+ * what couples round on the way is charged by the reach, so it must be known, and from outside that can't be done. */
+static real core_in(const view *k, const shape *s, vec dir, vec *x)
+{
+    *x = nowhere();
+    if (k->in) return k->in(k->unit, s->data, dir, x);
+    real reach = s->support(s->data, dir.c, x->c);
+    if (reach == 0) reach = surveyed(s->support, s->data, 0);
+    if (faint(reach)) reach += 16 * REAL_MIN;
+    *x = mul(*x, k->unit);
+    return reach * k->unit;
+}
+
+/* A power of two that brings the map to size, and points of size 1 through it; of others it is not known what it would
+ * do to them. */
+static real level_for(const view *k, real grows)
+{
+    return grows > 0 && k->size >= 0 ? smaller(leveler(grows), 1 / (16 * REAL_MIN)) : 1;
+}
+
+/* One of a couple in that unit, pose and radius included. Its reach counts all that passes through the rounding here,
+ * what underflows too, so that the licence of 8 roundings holds for the couple. The part is of size 1 in a unit of its
+ * own, its map is brought to size, and the exponents come together in one. */
+static real part_in(real unit, const shape *s, vec dir, vec *out)
+{
+    const pose *p = s->pose;
+    real grows = p ? stretch(p->m) : 1;
+    if (!s->support || !sized(&s->radius, 1) || !(grows <= REAL_MAX)) return (real)NAN;
+    view k = know(s);
+    real reach = core_in(&k, s, seen_by(p, grows, k.unit, dir), out);
+    int found = reach > 0;
+    if (k.size == 0) reach = 0;
+    real level = level_for(&k, grows);
+    real back = grows > 0 ? raised(1, exponent_of(unit) - exponent_of(k.unit) - exponent_of(level)) : 0;
+    if (p) {
+        vec at = mul(load(p->p), unit);
+        *out = add(mul(map(p->m, mul(*out, level)), back), at);
+        reach = 4 * (grows * level * reach) * back + spread(at);
+    } else {
+        *out = mul(*out, back);
+        reach *= back;
+    }
+    if (s->radius > 0) *out = add(*out, along(dir, s->radius * unit));
+    EACH(found &= bounded(out->c[i]));
+    return found ? reach + s->radius * unit + 64 * TINY : (real)NAN;
+}
+
+/* A couple's reach, which must be finite; so must its parts'. */
+static real joint(real reach_a, real reach_b, real reach)
+{
+    return reach_a <= REAL_MAX && reach_b <= REAL_MAX ? reach : (real)NAN;
+}
+
+static real sum_in(real unit, const void *data, vec dir, vec *out)
+{
+    const couple *c = data;
+    vec a, b;
+    if (!c) return (real)NAN;
+    real reach_a = part_in(unit, &c->a, dir, &a), reach_b = part_in(unit, &c->b, dir, &b);
+    *out = add(a, b);
+    return joint(reach_a, reach_b, 2 * (reach_a + reach_b));
+}
+
+GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DIM])
+{
+    return in_own_unit(sum_in, data, dir, out);
+}
+
+static real hull_in(real unit, const void *data, vec dir, vec *out)
+{
+    const couple *c = data;
+    vec a, b;
+    if (!c) return (real)NAN;
+    real reach_a = part_in(unit, &c->a, dir, &a), reach_b = part_in(unit, &c->b, dir, &b);
+    *out = dot(dir, a) >= dot(dir, b) ? a : b;
+    return joint(reach_a, reach_b, 2 * larger(reach_a, reach_b));
+}
+
+GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[DIM])
+{
+    return in_own_unit(hull_in, data, dir, out);
+}
+
+/* ---- what the search knows of them ---- */
+
+/* What data are made of: so many numbers and nothing else, or one of these. */
+#define CLOUD (-1)
+#define COUPLE (-2)
+#define UNKNOWN (-3)
+
+typedef struct ready {
+    int data;
+    support_in *in; /* NULL: a hull of corners, which are numbers of the caller's */
+} ready;
+
+#define READY(name, data, in)                                                                                          \
+    if (support == pub(name)) return (ready)                                                                           \
+        {                                                                                                              \
+            data, in                                                                                                   \
+        }
+
+static ready ready_of(support_fn *support)
+{
+    READY(support_points, CLOUD, NULL);
+    READY(support_box, DIM, NULL);
+    READY(support_segment, 2 * DIM, NULL);
+    READY(support_origin, 0, NULL);
+#if DIM == 3
+    READY(support_triangle, 3 * DIM, NULL);
+    READY(support_cylinder, 2, cylinder_in);
+    READY(support_cone, 2, cone_in);
+    READY(support_disc, 1, disc_in);
+#endif
+    READY(support_ball, 1, ball_in);
+    READY(support_ellipsoid, DIM, ellipsoid_in);
+    READY(support_sum, COUPLE, sum_in);
+    READY(support_hull, COUPLE, hull_in);
+    return (ready){UNKNOWN, NULL};
+}
+
+/* By its reach; of the least reach all points are 0, or at least one is as small as a number can be. */
+static real size_of_cloud(const points *p)
+{
+    if (!(p->reach > 0)) return (real)NAN;
+    real far = p->reach > TINY ? p->reach : 0;
+    for (size_t i = 0; i < p->count && !(far > 0); i++) far = larger(peak(load(p->v + i * stride_of(p))), far);
+    return far;
+}
+
+/* Of a part, as the couple sees it. */
+static real size_in_couple(const shape *s)
+{
+    real far = know(s).size, grows = 0;
+    if (!s->pose) return far + s->radius;
+    for (int i = 0; i < DIM * DIM; i++) grows = larger(size(s->pose->m[i]), grows);
+    return far * grows + s->radius + peak(load(s->pose->p));
+}
+
+static real size_of_couple(const couple *c) { return size_in_couple(&c->a) + size_in_couple(&c->b); }
+
+static view know(const shape *s)
+{
+    ready k = ready_of(s->support);
+    view unknown = {NULL, (real)NAN, 1};
+    real far = 0;
+    if (k.data == UNKNOWN || (!s->data && k.data != 0)) return unknown;
+    if (k.data == CLOUD) far = size_of_cloud(s->data);
+    if (k.data == COUPLE) far = size_of_couple(s->data);
+    for (int i = 0; i < k.data; i++) far = larger(size(((const real *)s->data)[i]), far);
+    return far <= REAL_MAX ? (view){k.in, far, leveler(far)} : unknown;
+}
 
 /* Whether the set is known to be the hull of corners that can be listed. */
 static int has_corners(const shape *s)
 {
-    int r = s->support == pub(support_points) || s->support == pub(support_box) || s->support == pub(support_segment) ||
-            s->support == pub(support_origin);
-#if DIM == 3
-    r |= s->support == pub(support_triangle);
-#endif
-    return r;
+    ready k = ready_of(s->support);
+    return k.data != UNKNOWN && !k.in;
 }
 
 /* How many, of a set that has them, and whose support has found the data good. */
 static size_t count_corners(const shape *s)
 {
-    if (s->support == pub(support_points)) return ((const points *)s->data)->count;
+    int n = ready_of(s->support).data;
+    if (n == CLOUD) return ((const points *)s->data)->count;
     if (s->support == pub(support_box)) return (size_t)1 << DIM;
-    if (s->support == pub(support_segment)) return 2;
-#if DIM == 3
-    if (s->support == pub(support_triangle)) return 3;
-#endif
-    return 1;
+    return n > 0 ? (size_t)n / DIM : 1;
 }
 
 static vec nth_corner(const shape *s, size_t n)
@@ -272,65 +475,6 @@ static vec nth_corner(const shape *s, size_t n)
     if (s->support == pub(support_triangle)) return load(((const triangle *)s->data)->v[n]);
 #endif
     return r;
-}
-
-/* The direction as the part sees it, of a size that makes its heights those that the couple sees: not so small that
- * they underflow. */
-static vec seen_by(const pose *p, real grows, vec dir)
-{
-    vec d = levelled(dir);
-    real lift = 16 / leveler(peak(dir));
-    if (p) {
-        if (grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
-        lift = grows > 0 ? lift / leveler(grows) : 0;
-    }
-    return mul(d, smaller(larger(lift, 1), LIFT));
-}
-
-/* One of a couple, pose and radius included. Its reach counts all that passes through the rounding here, what
- * underflows too, so that the licence of 8 roundings holds for the couple: so it must be known, and is surveyed where
- * the part does not say. From outside the couple that can't be done. */
-static real support_of(const shape *s, vec dir, vec *out)
-{
-    const pose *p = s->pose;
-    real grows = p ? stretch(p->m) : 1;
-    if (!s->support || !sized(&s->radius, 1) || !(grows <= REAL_MAX)) return (real)NAN;
-    *out = nowhere();
-    real reach = s->support(s->data, seen_by(p, grows, dir).c, out->c);
-    if (p) *out = add(map(p->m, *out), load(p->p));
-    if (s->radius > 0) *out = add(*out, along(dir, s->radius));
-    if (reach == 0) reach = surveyed(s->support, s->data, 0);
-    int found = reach > 0;
-    EACH(found &= bounded(out->c[i]));
-    if (!found) return (real)NAN;
-    if (faint(reach)) reach += 16 * REAL_MIN;
-    return (p ? 4 * (grows * reach) + spread(load(p->p)) : reach) + s->radius + 64 * TINY;
-}
-
-/* A couple's reach, which must be finite; so must its parts'. */
-static real joint(real reach_a, real reach_b, real reach)
-{
-    return reach_a <= REAL_MAX && reach_b <= REAL_MAX ? reach : (real)NAN;
-}
-
-GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DIM])
-{
-    const couple *c = data;
-    vec a, b, d = load(dir);
-    if (!c) return refuse(out);
-    real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
-    store(out, add(a, b));
-    return joint(reach_a, reach_b, 2 * (reach_a + reach_b));
-}
-
-GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[DIM])
-{
-    const couple *c = data;
-    vec a, b, d = load(dir);
-    if (!c) return refuse(out);
-    real reach_a = support_of(&c->a, d, &a), reach_b = support_of(&c->b, d, &b);
-    store(out, dot(d, a) >= dot(d, b) ? a : b);
-    return joint(reach_a, reach_b, 2 * larger(reach_a, reach_b));
 }
 
 #endif
