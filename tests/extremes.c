@@ -323,20 +323,98 @@ static void as_small_as_normal_numbers_get(void **state)
     }
 }
 
+/* Two points, the second taken only where its height is the greater. */
+static real own_two_points(const void *data, const real *dir, real *point)
+{
+    const body *k = data;
+    real rise[2] = {0};
+    for (int i = 0; i < DIM; i++) {
+        rise[0] += k->v[0][i] * dir[i];
+        rise[1] += k->v[1][i] * dir[i];
+    }
+    memcpy(point, k->v[rise[1] > rise[0]], DIM * sizeof *point);
+    return k->set.points.reach;
+}
+
+/* The same two by a support of the caller's own, of which no size is known before the first answer: it is asked once
+ * more, along a direction long enough. Along one of size 1/16 the coordinates of the first round up, those of the
+ * second down, and so the wrong one is as high. */
+static void as_small_by_a_support_of_ones_own(void **state)
+{
+    const double digits = ldexp(1, VARIANT_FLOAT ? 23 : 52);
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        draws d = draws_from(26, 0, (uint64_t)n);
+        double sum = 0, near = 32 * (double)below(&d, 4) + 8;
+        fresh(NULL);
+        a.kind = POINTS;
+        a.count = 2;
+        for (int i = 0; i < DIM; i++) {
+            double at = 32 * floor(between(&d, -1, 1) * digits / 32) + 24;
+            at = i < DIM - 1 ? at : DIM * (near - 16) - sum;
+            sum += at;
+            a.v[0][i] = (real)(at * TINY);
+            a.v[1][i] = (real)(near * TINY);
+        }
+        bind(&a);
+        if (below(&d, 2)) {
+            map_by(&a, ldexp(1, VARIANT_FLOAT ? 100 : 1000));
+        }
+        for (int i = 0; i < DIM; i++) {
+            b.pose.p[i] = (real)(256 * TINY) * a.pose.m[0];
+        }
+        static truth t;
+        find_truth(&t, &a, &b, 1);
+        a.shape.support = own_two_points;
+        a.shape.data = &a;
+        expect(NULL, t.lower, t.upper, NEVER);
+    }
+}
+
+/* A ball by a support of the caller's own, which the library can't ask in another unit. */
+static real own_ball(const void *data, const real *dir, real *point) { return V(support_ball)(data, dir, point); }
+
+/* A radius of a few of the least numbers, and a map to normal size: what rounds in the ball's points, and is no
+ * rounding of its reach, is as large as the map makes it. */
+static void ball_of_few_digits(void **state)
+{
+    const int most = VARIANT_FLOAT ? 120 : 1000, least = VARIANT_FLOAT ? 30 : 60;
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        draws d = draws_from(25, 0, (uint64_t)n);
+        double way[DIM], far = between(&d, 0.5, 4);
+        quad at[DIM];
+        fresh(NULL);
+        start_body(&a, BALL);
+        a.radius = (real)((double)(2 + below(&d, 40)) * TINY);
+        bind(&a);
+        a.shape.support = own_ball;
+        map_by(&a, ldexp(1, least + below(&d, most - least)));
+        unit(&d, way);
+        quad size = (quad)a.radius * (quad)a.pose.m[0];
+        for (int i = 0; i < DIM; i++) {
+            b.pose.p[i] = (real)(way[i] * far * (double)size);
+            at[i] = (quad)b.pose.p[i] / size;
+        }
+        expect_exactly((norm(at) - 1) * size, NEVER);
+    }
+}
+
 /* The textbook's: no care for the size of dir. */
-static real least_square;
+static real least_square, most_square;
 static real naive_ball(const void *data, const real *dir, real *point)
 {
+    const real radius = data ? *(const real *)data : 1;
     real square = 0;
-    (void)data;
     for (int i = 0; i < DIM; i++) {
         square += dir[i] * dir[i];
     }
     least_square = square < least_square ? square : least_square;
+    most_square = square > most_square ? square : most_square;
     for (int i = 0; i < DIM; i++) {
-        point[i] = dir[i] / (real)sqrt((double)square);
+        point[i] = radius * (dir[i] / (real)sqrt((double)square));
     }
-    return 1;
+    return radius;
 }
 
 /* A pose that flattens the ball along the direction shortened it until its square was 0. */
@@ -354,6 +432,88 @@ static void flattened_ball(void **state)
         least_square = 1;
         expect_exactly(1 - (quad)a.pose.m[last * DIM + last], NEVER);
         assert_true(least_square > REAL_EPSILON);
+    }
+}
+
+/* Whatever its size, and under whatever map, a set is asked along directions whose square is well within range. */
+static void balls_of_any_size(void **state)
+{
+    const int range = VARIANT_FLOAT ? 100 : 980;
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        draws d = draws_from(27, 0, (uint64_t)n);
+        int size = below(&d, 2 * range) - range, map = below(&d, 2 * range) - range;
+        real radius = (real)ldexp(between(&d, 1, 2), size);
+        double way[DIM], far = between(&d, 1.5, 4);
+        quad at[DIM], grown;
+        if (size + map < -range || size + map > range) {
+            continue;
+        }
+        fresh(NULL);
+        a.shape.support = naive_ball;
+        a.shape.data = &radius;
+        map_by(&a, ldexp(1, map));
+        grown = (quad)radius * (quad)a.pose.m[0];
+        unit(&d, way);
+        for (int i = 0; i < DIM; i++) {
+            b.pose.p[i] = (real)(way[i] * far * (double)grown);
+            at[i] = (quad)b.pose.p[i] / grown;
+        }
+        least_square = most_square = 1;
+        expect_exactly((norm(at) - 1) * grown, NEVER);
+        assert_true(least_square > REAL_EPSILON && most_square < REAL_MAX / 256);
+    }
+}
+
+/* ---- no size, and beyond all numbers ---- */
+
+/* A set of no size has none under any map, and rounds nothing: beside it a small ball is as good as beside the origin.
+ */
+static void nothing_under_a_large_map(void **state)
+{
+    static const enum kind kinds[] = {ORIGIN, POINTS, BOX, SEGMENT, BALL, ELLIPSOID};
+    const int large = VARIANT_FLOAT ? 120 : 1000;
+    const real radius = (real)ldexp(1, VARIANT_FLOAT ? -100 : -950);
+    (void)state;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        for (int e = 0; e < large; e += 7) {
+            fresh(NULL);
+            start_body(&a, kinds[k]);
+            a.count = kinds[k] == POINTS;
+            bind(&a);
+            map_by(&a, ldexp(1, e));
+            b.shape.support = naive_ball;
+            b.shape.data = &radius;
+            b.pose.p[0] = 3 * radius;
+            for (int swap = 0; swap < 2; swap++) {
+                V(result) r;
+                assert_int_equal(V(distance)(swap ? &b.shape : &a.shape, swap ? &a.shape : &b.shape, NULL, &r), GJK_OK);
+                assert_true(r.lower <= 2 * radius && r.upper >= 2 * radius);
+                assert_true((double)r.upper - (double)r.lower <= 512 * U * (double)radius);
+            }
+        }
+    }
+}
+
+/* Two points a little apart, both farther out than the largest number: the witnesses end there. */
+static void witnesses_at_the_end_of_numbers(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 100; n++) {
+        V(result) r;
+        fresh(NULL);
+        two_points(0, 0, 1);
+        real out = REAL_MAX / (real)(64 + n), sign = n % 2 ? -1 : 1;
+        a.v[0][0] = b.v[0][0] = sign * out;
+        a.pose.p[0] = b.pose.p[0] = sign * REAL_MAX;
+        b.pose.p[1] = out;
+        bind(&a);
+        bind(&b);
+        expect_exactly(out, NEVER);
+        for (int query = 0; query < 2; query++) {
+            assert_true(queries[query](&a.shape, &b.shape, NULL, &r) >= 0);
+            assert_true(r.point_a[0] == a.pose.p[0] && r.point_b[0] == b.pose.p[0]);
+        }
     }
 }
 
@@ -537,7 +697,12 @@ int main(void)
         cmocka_unit_test_setup(parts_of_unknown_reach, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
         cmocka_unit_test_setup(as_small_as_normal_numbers_get, fresh),
+        cmocka_unit_test_setup(as_small_by_a_support_of_ones_own, fresh),
+        cmocka_unit_test_setup(ball_of_few_digits, fresh),
         cmocka_unit_test_setup(flattened_ball, fresh),
+        cmocka_unit_test_setup(balls_of_any_size, fresh),
+        cmocka_unit_test_setup(nothing_under_a_large_map, fresh),
+        cmocka_unit_test_setup(witnesses_at_the_end_of_numbers, fresh),
         cmocka_unit_test_setup(shallow_overlap_of_balls, fresh),
         cmocka_unit_test_setup(warm_start_from_a_speck, fresh),
         cmocka_unit_test_setup(infinite_point, fresh),

@@ -414,6 +414,60 @@ static void short_along_an_axis(void **state)
     }
 }
 
+/* ---- wide, and said so ---- */
+
+/* The point 0 against (0, 1) first, then (1, 1 - step), (1, 1 - 2 step) and so on: along v, which turns by step with
+ * each of them, each lies lower by step than all before. That brings v nearer by less than its square rounds, so the
+ * walk ends after some of them, on a bracket a step wide. */
+static double late_step;
+static int late_calls;
+static real late_support(const void *data, const real *dir, real *point)
+{
+    (void)data;
+    (void)dir;
+    memset(point, 0, DIM * sizeof *point);
+    point[0] = late_calls > 0 ? -1 : 0;
+    point[1] = (real)(late_calls * late_step - 1);
+    late_calls++;
+    return 1.5;
+}
+
+static int ask_late(real abs_tol, real rel_tol, V(result) * r)
+{
+    body a, b;
+    V(options) o = default_options();
+    o.abs_tol = abs_tol;
+    o.rel_tol = rel_tol;
+    late_calls = 0;
+    start_points(&a, &b);
+    b.shape.support = late_support;
+    b.shape.pose = NULL;
+    int status = ask(0, &a.shape, &b.shape, &o, r);
+    double off = late_calls * late_step;
+    assert_true((double)r->lower <= 1 - late_step && (double)r->upper >= 1 - off * off);
+    return status;
+}
+
+/* Ok is said of a bracket as narrow as asked; no tolerance asked, of one that roundings explain: four times what they
+ * add to each bound, 16 of the reach. */
+static void no_wider_than_ok(void **state)
+{
+    const double least = VARIANT_FLOAT ? 0x1p-17 : 0x1p-46;
+    V(result) r;
+    (void)state;
+    for (late_step = least; late_step < 2 * least; late_step += least / 16) {
+        real step = (real)late_step;
+        assert_int_equal(ask_late(0, 0, &r), GJK_FLOOR);
+        assert_true((double)r.upper - (double)r.lower > 4 * 16 * 1.5 * U);
+        assert_int_equal(ask_late(step, 0, &r), GJK_FLOOR);
+        assert_int_equal(ask_late(0, step, &r), GJK_FLOOR);
+        assert_int_equal(ask_late(4 * step, 0, &r), GJK_OK);
+        assert_int_equal(ask_late(0, 4 * step, &r), GJK_OK);
+    }
+    late_step = 0;
+    assert_int_equal(ask_late(0, 0, &r), GJK_OK);
+}
+
 /* ---- short, and said so ---- */
 
 /* A support that stays in its set and short of its farthest point by no more than declared, each time otherwise. */
@@ -498,13 +552,14 @@ static void short_within_the_slack(void **state)
     }
 }
 
-#define OTHERS 3
+#define OTHERS 4
 
 int main(void)
 {
     struct CMUnitTest tests[LIES + OTHERS] = {
         cmocka_unit_test(slow_and_fading_on_a_line),
         cmocka_unit_test(short_along_an_axis),
+        cmocka_unit_test(no_wider_than_ok),
         cmocka_unit_test(short_within_the_slack),
     };
     for (int k = 0; k < LIES; k++) {

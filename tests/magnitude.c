@@ -375,8 +375,15 @@ static void another_unit_by_the_map(void **state)
     expect_same("by the map", 1000);
 }
 
-/* Round sets on an axis, or off it by next to nothing: their points have coordinates far smaller than the set, which in
- * another unit would be subnormal. */
+static void set_straight(body *k)
+{
+    for (int i = 0; i < DIM * DIM; i++) {
+        k->pose.m[i] = i % (DIM + 1) == 0;
+    }
+}
+
+/* Round sets, and couples of them, on an axis, or off it by next to nothing: their points have coordinates far smaller
+ * than the set, which in another unit would be subnormal. */
 static void another_unit_along_an_axis(void **state)
 {
     static pair p;
@@ -385,23 +392,29 @@ static void another_unit_along_an_axis(void **state)
     memset(&seen, 0, sizeof seen);
     for (walk w = {.seed = 12, .families = FAMILIES, .each = PAIRS}; next_pair(&w, &p);) {
         const int along = below(&w.d, DIM);
+        range own, world, maps;
         double size = span_of(&p.a) + span_of(&p.b);
         if (!(size > 0) || has_corners(&p.a)) {
             continue;
         }
+        set_straight(&p.a);
         for (int i = 0; i < DIM; i++) {
             p.a.pose.p[i] = 0;
             p.b.pose.p[i] =
-                (real)(size * (i == along ? between(&w.d, 0.5, 2) : magnitude(&w.d, VARIANT_FLOAT ? -12 : -60, 0)));
-            for (int j = 0; j < DIM; j++) {
-                p.a.pose.m[DIM * i + j] = i == j;
+                (real)(size * (i == along ? between(&w.d, 0.5, 2) : magnitude(&w.d, VARIANT_FLOAT ? -25 : -60, 0)));
+            for (int k = 0; k < 2 && is_couple(&p.a); k++) {
+                set_straight(&p.part[k]);
+                p.part[k].pose.p[i] = 0;
             }
         }
         ask_all(&p, 0, 0, &plain);
+        note_pair(&p, &own, &world, &maps);
+        stretch_range(&own, world.least, world.most);
         for (int n = 0; n < POWERS; n++) {
             int map = any_power(&w.d);
             compare(&p, &plain, n % 3 ? any_power(&w.d) / (n % 3) : -map, map);
             compare(&p, &plain, any_power(&w.d), 0);
+            compare(&p, &plain, LEAST_EXPONENT - own.least + n, 0); /* the smallest in which its numbers are normal */
         }
     }
     expect_same("along an axis", 1000);
