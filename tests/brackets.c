@@ -209,9 +209,10 @@ static void check_distance(const V(result) * r, int status)
 {
     const V(options) *o = &now.options;
     quad width = (quad)r->upper - (quad)r->lower;
-    quad asked = (quad)o->abs_tol + (quad)o->rel_tol * (quad)r->upper * (1 + 4 * (quad)U);
+    quad asked = ((quad)o->abs_tol + (quad)o->rel_tol * (quad)r->upper) * (1 + 4 * (quad)U);
+    int tolerant = o->abs_tol > 0 || o->rel_tol > 0;
     check_bracket(r, status);
-    if (status == GJK_OK && !(width <= asked || in_u(width, now.span) <= WIDTH)) {
+    if (status == GJK_OK && !(width <= asked || (!tolerant && in_u(width, now.span) <= WIDTH))) {
         broken("ok, but wider than asked", r, (double)width);
     }
     if (status == GJK_FLOOR && !(in_u(width, now.span) <= WIDTH)) {

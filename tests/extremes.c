@@ -495,6 +495,23 @@ static void nothing_under_a_large_map(void **state)
     }
 }
 
+/* A radius of -0 is one of 0. */
+static void radius_of_minus_zero(void **state)
+{
+    (void)state;
+    for (int query = 0; query < 2; query++) {
+        V(result) r[2];
+        memset(r, 0, sizeof r);
+        for (int minus = 0; minus < 2; minus++) {
+            fresh(NULL);
+            two_points(1, -2, 1);
+            a.shape.radius = b.shape.radius = minus ? -(real)0 : 0;
+            assert_true(queries[query](&a.shape, &b.shape, NULL, &r[minus]) >= 0);
+        }
+        assert_memory_equal(&r[0], &r[1], sizeof *r);
+    }
+}
+
 /* Two points a little apart, both farther out than the largest number: the witnesses end there. */
 static void witnesses_at_the_end_of_numbers(void **state)
 {
@@ -703,6 +720,7 @@ int main(void)
         cmocka_unit_test_setup(balls_of_any_size, fresh),
         cmocka_unit_test_setup(nothing_under_a_large_map, fresh),
         cmocka_unit_test_setup(witnesses_at_the_end_of_numbers, fresh),
+        cmocka_unit_test_setup(radius_of_minus_zero, fresh),
         cmocka_unit_test_setup(shallow_overlap_of_balls, fresh),
         cmocka_unit_test_setup(warm_start_from_a_speck, fresh),
         cmocka_unit_test_setup(infinite_point, fresh),

@@ -115,7 +115,7 @@ static int tell(search *q, const goal *g, real *upper, enum end *end)
  * to what is reckoned in that unit no other makes a difference. */
 static real level_of(const difference *d, real radius, real far)
 {
-    return smaller(d->scale, smaller(leveler(radius), leveler(far)));
+    return smaller(d->scale, smaller(leveler(size(radius)), leveler(far))); /* a radius may be -0 */
 }
 
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
