@@ -266,8 +266,6 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
 }
 #endif
 
-/* ---- two as one ---- */
-
 /* What is known of a set before it is asked. */
 typedef struct view {
     support_in *in; /* of a ready-made round set: to be asked instead */
@@ -276,6 +274,8 @@ typedef struct view {
 } view;
 
 static view know(const shape *s);
+
+/* ---- two as one ---- */
 
 /* The direction as the part sees it, of a size that keeps its heights from underflow: those of a part whose size is not
  * known are then of the size that the couple sees. */
@@ -386,32 +386,27 @@ typedef struct ready {
     support_in *in; /* NULL: a hull of corners, which are numbers of the caller's */
 } ready;
 
-#define READY(name, data, in)                                                                                          \
-    if (support == pub(name)) return (ready)                                                                           \
-        {                                                                                                              \
-            data, in                                                                                                   \
-        }
-
-static ready ready_of(support_fn *support)
+static ready ready_of(support_fn *f)
 {
-    READY(support_points, CLOUD, NULL);
-    READY(support_box, DIM, NULL);
-    READY(support_segment, 2 * DIM, NULL);
-    READY(support_origin, 0, NULL);
+    if (f == pub(support_points)) return (ready){CLOUD, NULL};
+    if (f == pub(support_box)) return (ready){DIM, NULL};
+    if (f == pub(support_segment)) return (ready){2 * DIM, NULL};
+    if (f == pub(support_origin)) return (ready){0, NULL};
 #if DIM == 3
-    READY(support_triangle, 3 * DIM, NULL);
-    READY(support_cylinder, 2, cylinder_in);
-    READY(support_cone, 2, cone_in);
-    READY(support_disc, 1, disc_in);
+    if (f == pub(support_triangle)) return (ready){3 * DIM, NULL};
+    if (f == pub(support_cylinder)) return (ready){2, cylinder_in};
+    if (f == pub(support_cone)) return (ready){2, cone_in};
+    if (f == pub(support_disc)) return (ready){1, disc_in};
 #endif
-    READY(support_ball, 1, ball_in);
-    READY(support_ellipsoid, DIM, ellipsoid_in);
-    READY(support_sum, COUPLE, sum_in);
-    READY(support_hull, COUPLE, hull_in);
+    if (f == pub(support_ball)) return (ready){1, ball_in};
+    if (f == pub(support_ellipsoid)) return (ready){DIM, ellipsoid_in};
+    if (f == pub(support_sum)) return (ready){COUPLE, sum_in};
+    if (f == pub(support_hull)) return (ready){COUPLE, hull_in};
     return (ready){UNKNOWN, NULL};
 }
 
-/* By its reach; of the least reach all points are 0, or at least one is as small as a number can be. */
+/* By its reach. That is the least number for a cloud of no size, which must not count as one of that size; so there the
+ * points themselves are asked. */
 static real size_of_cloud(const points *p)
 {
     if (!(p->reach > 0)) return (real)NAN;
