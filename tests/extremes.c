@@ -495,6 +495,22 @@ static void nothing_under_a_large_map(void **state)
     }
 }
 
+/* A small pair so far out that the place overflows in the pair's own unit: the witnesses are at that place. */
+static void small_and_far_out(void **state)
+{
+    const int size = VARIANT_FLOAT ? -100 : -900, place = VARIANT_FLOAT ? 100 : 900;
+    (void)state;
+    for (int query = 0; query < 2; query++) {
+        V(result) r;
+        fresh(NULL);
+        two_points(ldexp(1, size), -ldexp(2, size), 1);
+        a.pose.p[0] = b.pose.p[0] = (real)ldexp(1, place);
+        expect_exactly((quad)a.v[0][0] - (quad)b.v[0][0], NEVER);
+        assert_true(queries[query](&a.shape, &b.shape, NULL, &r) >= 0);
+        assert_true(r.point_a[0] == a.pose.p[0] && r.point_b[0] == b.pose.p[0]);
+    }
+}
+
 /* A radius of -0 is one of 0. */
 static void radius_of_minus_zero(void **state)
 {
@@ -720,6 +736,7 @@ int main(void)
         cmocka_unit_test_setup(balls_of_any_size, fresh),
         cmocka_unit_test_setup(nothing_under_a_large_map, fresh),
         cmocka_unit_test_setup(witnesses_at_the_end_of_numbers, fresh),
+        cmocka_unit_test_setup(small_and_far_out, fresh),
         cmocka_unit_test_setup(radius_of_minus_zero, fresh),
         cmocka_unit_test_setup(shallow_overlap_of_balls, fresh),
         cmocka_unit_test_setup(warm_start_from_a_speck, fresh),

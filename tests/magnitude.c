@@ -420,6 +420,35 @@ static void another_unit_along_an_axis(void **state)
     expect_same("along an axis", 1000);
 }
 
+/* A capsule as the hull of two balls about points: the points have no size to round, in the smallest unit either. */
+static void capsules_in_the_smallest_unit(void **state)
+{
+    static pair p;
+    static answers plain;
+    (void)state;
+    memset(&seen, 0, sizeof seen);
+    for (uint64_t n = 0; n < 10 * PAIRS; n++) {
+        draws d = draws_from(13, 0, n);
+        memset(&p, 0, sizeof p);
+        start_body(&p.a, HULL);
+        draw_box(&d, &p.b, 0.5, 2);
+        for (int k = 0; k < 2; k++) {
+            start_body(&p.part[k], ORIGIN);
+            p.part[k].pose.p[0] = (real)between(&d, 0.5, 2);
+            p.part[k].pose.p[1] = (real)between(&d, 0.5, 2);
+            p.part[k].shape.radius = (real)between(&d, 0.5, 2);
+            p.a.part[k] = &p.part[k];
+        }
+        p.b.pose.p[1] = (real)between(&d, -8, 8);
+        bind_pair(&p);
+        ask_all(&p, 0, 0, &plain);
+        for (int k = LEAST_EXPONENT; k < LEAST_EXPONENT + POWERS; k++) {
+            compare(&p, &plain, k, 0);
+        }
+    }
+    expect_same("capsules", 1000);
+}
+
 /* ---- subnormal numbers, and overflow ---- */
 
 static const pair *asked; /* for the message */
@@ -657,6 +686,7 @@ int main(void)
         cmocka_unit_test(another_unit),
         cmocka_unit_test(another_unit_by_the_map),
         cmocka_unit_test(another_unit_along_an_axis),
+        cmocka_unit_test(capsules_in_the_smallest_unit),
         cmocka_unit_test(subnormal_numbers),
         cmocka_unit_test(numbers_near_overflow),
         cmocka_unit_test(far_from_the_origin),
