@@ -38,7 +38,7 @@ static real option_number(question *q, input *in)
 
 static uint32_t option_size(input *in)
 {
-    static const size_t ages[] = {offsetof(V(options), cache), offsetof(V(options), reserved),
+    static const size_t ages[] = {offsetof(V(options), cache), offsetof(V(options), workspace),
                                   offsetof(V(options), tight), sizeof(V(options))};
     int op = choice(in, 8);
     if (op == 0) {
@@ -48,6 +48,39 @@ static uint32_t option_size(input *in)
         return UINT32_MAX >> byte(in) % 24;
     }
     return (uint32_t)ages[op < 5 ? 3 : op - 5];
+}
+
+#define MOST_CORNERS 264
+
+/* A workspace of so many bytes, aligned for any number. It stays. */
+static unsigned char *lend_room(size_t bytes)
+{
+    static unsigned char *room; /* of its own size, so that a step beyond it is seen */
+    free(room);
+    room = malloc(bytes > 0 ? bytes : 1);
+    return room;
+}
+
+/* None, as a rule; or one with room for 8 corners or more; or one too small, or of no bytes, or aligned for nothing. */
+static void read_workspace(V(options) * o, int op, input *in)
+{
+    size_t bytes = 0, off = 0;
+    if (op == 4) {
+        o->workspace_bytes = 1u << byte(in) % 32;
+    }
+    if (op != 1 && (op < 6 || op > 9)) {
+        return;
+    }
+    if (op >= 6) {
+        bytes = V(workspace_size)(8 + (uint32_t)byte(in) % (MOST_CORNERS - 8));
+        off = op == 8 ? (size_t)byte(in) % sizeof(real) : 0;
+        bytes = op == 9 ? (size_t)(byte(in) << 8 | byte(in)) : bytes;
+    }
+    o->workspace = lend_room(bytes + off);
+    if (o->workspace) {
+        o->workspace = (unsigned char *)o->workspace + off;
+        o->workspace_bytes = (uint32_t)bytes;
+    }
 }
 
 static void read_options(question *q, input *in)
@@ -63,9 +96,8 @@ static void read_options(question *q, input *in)
     o->cutoff = option_number(q, in);
     o->slack = choice(in, 3) == 0 ? option_number(q, in) : 0;
     op = choice(in, 16);
-    o->reserved = op == 1 ? (const void *)o : NULL;
     o->tight = op == 2 ? (uint32_t)byte(in) << 24 | 2 : (uint32_t)(op & 1);
-    o->reserved_bits = op == 4 ? 1u << byte(in) % 32 : 0;
+    read_workspace(o, op, in);
 }
 
 static int holds(const V(options) * o, size_t field) { return o->size > field; }
@@ -79,27 +111,39 @@ static int are_good(const V(options) * o, int tail)
     if (o->size > LARGEST || (o->size > sizeof *o && tail)) {
         return 0;
     }
-    if (o->size < sizeof *o && o->size != old && o->size != offsetof(V(options), reserved) &&
+    if (o->size < sizeof *o && o->size != old && o->size != offsetof(V(options), workspace) &&
         o->size != offsetof(V(options), tight)) {
         return 0;
     }
-    if (holds(o, offsetof(V(options), reserved)) && o->reserved != NULL) {
-        return 0;
-    }
-    if (holds(o, offsetof(V(options), tight)) && (o->tight > 1 || o->reserved_bits != 0)) {
+    if (holds(o, offsetof(V(options), tight)) && o->tight > 1) {
         return 0;
     }
     return is_good(o->abs_tol) && is_good(o->rel_tol) && is_good(o->cutoff) && is_good(o->slack);
 }
 
+/* Whether penetration may take the workspace, or there is none. */
+static int is_good_workspace(const V(options) * o)
+{
+    if (o->workspace == NULL) {
+        return o->workspace_bytes == 0;
+    }
+    return (uintptr_t)o->workspace % sizeof(real) == 0 && o->workspace_bytes >= V(workspace_size)(8);
+}
+
 /* Fields that an older struct does not hold are not there, whatever they say. */
 static void forget_beyond_size(V(options) * o)
 {
+    if (!holds(o, offsetof(V(options), workspace))) {
+        o->workspace = NULL;
+    }
     if (!holds(o, offsetof(V(options), cache))) {
         o->cache = NULL;
     }
     if (!holds(o, offsetof(V(options), tight))) {
         o->tight = 0;
+    }
+    if (!holds(o, offsetof(V(options), workspace_bytes))) {
+        o->workspace_bytes = 0;
     }
 }
 
@@ -165,14 +209,20 @@ static enum trust read_cache(question *q, input *in, V(cache) * cache)
 
 /* ---- the question ---- */
 
-static void ask_refused(question *q)
+typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
+
+/* from: the first of the queries that refuse. */
+static void ask_refused(question *q, int from)
 {
-    for (int k = 0; k < 2; k++) {
+    static query_fn *const queries[] = {V(distance), V(intersect), V(penetration)};
+    static const char *const names[] = {"distance with bad options", "intersect with bad options",
+                                        "penetration with bad options"};
+    for (int k = from; k < 3; k++) {
         V(result) r, before;
         memset(&before, 0x5a, sizeof before);
         r = before;
-        q->query = k ? "intersect with bad options" : "distance with bad options";
-        int status = (k ? V(intersect) : V(distance))(&q->s.p.a.shape, &q->s.p.b.shape, q->given, &r);
+        q->query = names[k];
+        int status = queries[k](&q->s.p.a.shape, &q->s.p.b.shape, q->given, &r);
         if (status != GJK_BAD_ARGUMENT) {
             broken(q, "bad options were taken", &r, q->options.size);
         }
@@ -193,6 +243,29 @@ static void ask_form(question *q, int intersect)
         check_form(q, &r, status);
     } else if (status != GJK_BAD_SUPPORT || memcmp(&r, &before, sizeof r) != 0) {
         broken(q, "refused, but not for a support, or the result was touched", &r, status);
+    }
+}
+
+/* The same of the third query: the bracket holds, however the workspace or the steps run out. */
+static void ask_penetration(question *q, enum trust trust)
+{
+    V(result) r, before;
+    memset(&before, 0x5a, sizeof before);
+    r = before;
+    q->query = "penetration";
+    int status = V(penetration)(&q->s.p.a.shape, &q->s.p.b.shape, q->given, &r);
+    if (status < 0) {
+        int fair = status == GJK_BAD_SUPPORT && (q->may_refuse || trust == ANY_POINTS);
+        if (!fair || memcmp(&r, &before, sizeof r) != 0) {
+            broken(q, "an error for a good pair, or the result was touched", NULL, status);
+        }
+        return;
+    }
+    if (status != r.status || status > GJK_LIMIT || r.reserved != 0 || !(r.lower <= r.value && r.value <= r.upper)) {
+        broken(q, "not the form of an answer", &r, status);
+    }
+    if (trust == TRUE_POINTS) {
+        check_bracket(q, &r, q->t.lower, q->t.upper);
     }
 }
 
@@ -243,11 +316,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     memcpy(&q.given, &(unsigned char *){block}, sizeof block);
     announce(&q);
     if (!are_good(&q.options, tail)) {
-        ask_refused(&q);
+        ask_refused(&q, 0);
     } else {
         forget_beyond_size(&q.options);
         q.may_refuse |= slack_exponent(&q) > (VARIANT_FLOAT ? 100 : 1000);
         ask_both(&q, q.options.cache ? trust : TRUE_POINTS);
+        if (is_good_workspace(&q.options)) {
+            ask_penetration(&q, q.options.cache ? trust : TRUE_POINTS);
+        } else {
+            ask_refused(&q, 2);
+        }
     }
     free(block);
     return 0;

@@ -21,7 +21,8 @@ static int fresh(void **state)
 }
 
 typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
-static query_fn *const queries[2] = {V(distance), V(intersect)};
+#define QUERIES 3
+static query_fn *const queries[QUERIES] = {V(distance), V(intersect), V(penetration)};
 
 static void expect_query(query_fn *query, const V(shape) * x, const V(shape) * y, const V(options) * o, int status)
 {
@@ -34,10 +35,10 @@ static void expect_query(query_fn *query, const V(shape) * x, const V(shape) * y
     }
 }
 
-/* Both ways round, both queries. */
+/* Both ways round, all queries. */
 static void expect_with(const V(options) * o, int status)
 {
-    for (int q = 0; q < 2; q++) {
+    for (int q = 0; q < QUERIES; q++) {
         expect_query(queries[q], &a.shape, &b.shape, o, status);
         expect_query(queries[q], &b.shape, &a.shape, o, status);
     }
@@ -45,7 +46,7 @@ static void expect_with(const V(options) * o, int status)
 
 static void expect(int status) { expect_with(NULL, status); }
 
-/* Legal: both queries answer, and their brackets hold the truth. */
+/* Legal: all queries answer, and their brackets hold the truth. */
 static void expect_truth_with(const V(options) * o, double truth)
 {
     V(result) r;
@@ -54,9 +55,11 @@ static void expect_truth_with(const V(options) * o, double truth)
         assert_true(V(distance)(x, y, o, &r) >= 0);
         assert_true((double)r.lower <= fmax(truth, 0) && fmax(truth, 0) <= (double)r.upper);
         assert_true(r.lower <= r.value && r.value <= r.upper);
-        assert_true(V(intersect)(x, y, o, &r) >= 0);
-        assert_true((double)r.lower <= truth && truth <= (double)r.upper);
-        assert_true(r.lower <= r.value && r.value <= r.upper);
+        for (int q = 1; q < QUERIES; q++) {
+            assert_true(queries[q](x, y, o, &r) >= 0);
+            assert_true((double)r.lower <= truth && truth <= (double)r.upper);
+            assert_true(r.lower <= r.value && r.value <= r.upper);
+        }
     }
 }
 
@@ -75,7 +78,7 @@ static void null_pointers(void **state)
 {
     V(result) r;
     (void)state;
-    for (int q = 0; q < 2; q++) {
+    for (int q = 0; q < QUERIES; q++) {
         expect_query(queries[q], NULL, &b.shape, NULL, GJK_BAD_ARGUMENT);
         expect_query(queries[q], &a.shape, NULL, NULL, GJK_BAD_ARGUMENT);
         assert_int_equal(queries[q](&a.shape, &b.shape, NULL, NULL), GJK_BAD_ARGUMENT);
@@ -403,11 +406,14 @@ static void calls_are_counted(void **state)
     b = a;
     b.pose.p[0] = 3;
     b.shape.pose = &b.pose;
-    assert_true(V(distance)(&a.shape, &b.shape, NULL, &r) >= 0);
-    assert_int_equal(r.supports, fake.calls);
-    fake.calls = 0;
-    assert_true(V(intersect)(&a.shape, &b.shape, NULL, &r) >= 0);
-    assert_int_equal(r.supports, fake.calls);
+    for (int overlap = 0; overlap < 2; overlap++) {
+        for (int q = 0; q < QUERIES; q++) {
+            fake.calls = 0;
+            assert_true(queries[q](&a.shape, &b.shape, NULL, &r) >= 0);
+            assert_int_equal(r.supports, fake.calls);
+        }
+        b.pose.p[0] = 0;
+    }
 }
 
 /* First a point near, then only points farther away: no convex set answers so. */
@@ -424,7 +430,7 @@ static void points_that_contradict(void **state)
 {
     V(result) r;
     (void)state;
-    for (int q = 0; q < 2; q++) {
+    for (int q = 0; q < QUERIES; q++) {
         fresh(NULL);
         memset(&r, 0x5a, sizeof r);
         a.shape.support = backing_support;
@@ -464,10 +470,10 @@ static void noise(void **state)
         a.shape.support = noisy_support;
         a.shape.data = &s;
         b.pose.p[0] = (real)((double)(seed % 7) / 2);
-        for (int k = 0; k < 4; k++) {
+        for (int k = 0; k < 2 * QUERIES; k++) {
             memset(&before, 0x5a, sizeof before);
             r = before;
-            status = queries[k % 2](&a.shape, &b.shape, &o, &r);
+            status = queries[k % QUERIES](&a.shape, &b.shape, &o, &r);
             assert_true(status >= 0 || status == GJK_BAD_SUPPORT);
             if (status < 0) {
                 assert_memory_equal(&r, &before, sizeof r);
@@ -567,9 +573,9 @@ static void ties(void **state)
  * would, were that as wide as a pointer, which is harmless. */
 static int is_older(uint32_t size)
 {
-    return size == offsetof(V(options), cache) || size == offsetof(V(options), reserved) ||
+    return size == offsetof(V(options), cache) || size == offsetof(V(options), workspace) ||
            size == offsetof(V(options), tight) ||
-           (size == offsetof(V(options), reserved_bits) && sizeof(void *) == sizeof(uint32_t));
+           (size == offsetof(V(options), workspace_bytes) && sizeof(void *) == sizeof(uint32_t));
 }
 
 static void option_sizes(void **state)
@@ -621,22 +627,92 @@ static void older_options(void **state)
         if (size > offsetof(V(options), cache)) {
             o.cache = NULL;
         }
-        if (size > offsetof(V(options), reserved)) {
-            o.reserved = NULL;
+        if (size > offsetof(V(options), workspace)) {
+            o.workspace = NULL;
         }
         if (size > offsetof(V(options), tight)) {
             o.tight = 1;
         }
         o.size = size;
         expect_truth_with(&o, 1);
+        if (size > offsetof(V(options), workspace)) { /* one of no bytes */
+            o.workspace = &o;
+            expect_query(V(penetration), &a.shape, &b.shape, &o, GJK_BAD_ARGUMENT);
+            o.workspace = NULL;
+        }
         ages++;
     }
     assert_in_range(ages, 3, 4);
     o.size = (uint32_t)sizeof o; /* and now all of it is read */
     o.tight = 1;
-    expect_with(&o, GJK_BAD_ARGUMENT);
-    o.reserved_bits = 0;
+    expect_query(V(penetration), &a.shape, &b.shape, &o, GJK_BAD_ARGUMENT);
+    o.workspace_bytes = 0;
     expect_truth_with(&o, 1);
+    o.tight = UINT32_MAX;
+    expect_with(&o, GJK_BAD_ARGUMENT);
+}
+
+/* A workspace is penetration's: it takes one that is aligned and large enough, or none. The others look at neither
+ * field. */
+static void expect_workspace(const void *workspace, size_t bytes, int good)
+{
+    V(options) o = default_options();
+    o.workspace = (void *)(uintptr_t)workspace;
+    o.workspace_bytes = (uint32_t)bytes;
+    for (double at = 3; at >= 1; at -= 1) { /* apart, touching, overlapping: it makes no difference */
+        b.pose.p[0] = (real)at;
+        for (int q = 0; q < QUERIES; q++) {
+            V(result) r;
+            if (good || queries[q] != V(penetration)) {
+                assert_true(queries[q](&a.shape, &b.shape, &o, &r) >= 0);
+                assert_true((double)r.lower <= fmax(at - 2, q ? -1 : 0) && at - 2 <= (double)r.upper);
+            } else {
+                expect_query(queries[q], &a.shape, &b.shape, &o, GJK_BAD_ARGUMENT);
+            }
+        }
+    }
+}
+
+static void workspaces(void **state)
+{
+    static union {
+        real numbers[4096];
+        unsigned char bytes[4096 * sizeof(real)];
+    } room;
+    const size_t least = V(workspace_size)(8), most = sizeof room;
+    (void)state;
+    assert_in_range(least, 1, most);
+    expect_workspace(NULL, 0, 1);
+    expect_workspace(room.bytes, least, 1);
+    expect_workspace(room.bytes, most, 1);
+    expect_workspace(NULL, least, 0);
+    expect_workspace(NULL, 1, 0);
+    expect_workspace(NULL, UINT32_MAX, 0);
+    for (size_t bytes = 0; bytes < least; bytes++) {
+        expect_workspace(room.bytes, bytes, 0);
+    }
+    for (size_t off = 1; off < sizeof(real); off++) {
+        expect_workspace(room.bytes + off, least, 0);
+        expect_workspace(room.bytes + off, most - off, 0);
+    }
+    expect_workspace(room.bytes + sizeof(real), least, 1);
+}
+
+/* Of the numbers of corners that there may be; of more corners, more bytes, and whole numbers of reals. */
+static void workspace_sizes(void **state)
+{
+    static const uint32_t none[] = {0, 1, 7, 16385, 32768, 65536 + 8, 0x80000000u, 0x80000008u, UINT32_MAX};
+    size_t before = 0;
+    (void)state;
+    for (size_t k = 0; k < sizeof none / sizeof *none; k++) {
+        assert_int_equal(V(workspace_size)(none[k]), 0);
+    }
+    for (uint32_t corners = 8; corners <= 16384; corners++) {
+        size_t bytes = V(workspace_size)(corners);
+        assert_true(bytes > before);
+        assert_true(bytes <= UINT32_MAX); /* or the options could not say so */
+        before = bytes;
+    }
 }
 
 static void tight(void **state)
@@ -663,11 +739,6 @@ static void tight(void **state)
     }
     for (o.tight = 0; o.tight <= 1; o.tight++) {
         expect_truth_with(&o, 1);
-        for (int bit = 0; bit < 32; bit++) {
-            o.reserved_bits = (uint32_t)1 << bit;
-            expect_with(&o, GJK_BAD_ARGUMENT);
-        }
-        o.reserved_bits = 0;
     }
 }
 
@@ -728,9 +799,6 @@ static void option_numbers(void **state)
     o.slack = (real)INFINITY;
     expect_with(&o, GJK_BAD_ARGUMENT);
     o.slack = 0;
-    o.reserved = &o;
-    expect_with(&o, GJK_BAD_ARGUMENT);
-    o.reserved = NULL;
     o.max_steps = UINT32_MAX;
     expect_truth_with(&o, 1);
     o.max_steps = 1;
@@ -771,7 +839,7 @@ static void magnitudes(void **state)
         bind(&a);
         bind(&b);
         memset(&before, 0x5a, sizeof before);
-        for (int q = 0; q < 2; q++) {
+        for (int q = 0; q < QUERIES; q++) {
             r = before;
             int status = queries[q](&a.shape, &b.shape, NULL, &r);
             assert_true(status < 0 || r.lower <= 0);
@@ -816,6 +884,8 @@ int main(void)
         cmocka_unit_test_setup(option_sizes, fresh),
         cmocka_unit_test_setup(older_options, fresh),
         cmocka_unit_test_setup(option_numbers, fresh),
+        cmocka_unit_test_setup(workspaces, fresh),
+        cmocka_unit_test_setup(workspace_sizes, fresh),
         cmocka_unit_test_setup(tight, fresh),
         cmocka_unit_test_setup(tight_refuses_the_same, fresh),
         cmocka_unit_test_setup(magnitudes, fresh),

@@ -66,16 +66,16 @@ typedef struct gjk2f_cache {
  *     o.size = sizeof o;
  * All numbers are finite and not negative. */
 typedef struct gjk2f_options {
-    uint32_t size;          /* sizeof(gjk2f_options) in your build; never 0 */
-    uint32_t max_steps;     /* 0: 256. One step is one support call on each shape */
-    float abs_tol;         /* stop at upper - lower <= abs_tol + rel_tol * upper; */
-    float rel_tol;         /*   both 0: as tight as rounding allows */
-    float cutoff;          /* > 0: stop once lower is above it; value may then be as far off as upper */
-    float slack;           /* how far a support may fall short of the farthest point, in its set's own coordinates */
-    gjk2f_cache *cache;      /* NULL: start cold */
-    const void *reserved;   /* NULL */
-    uint32_t tight;         /* 1: the distance of points, box, segment and origin to the last place, see below */
-    uint32_t reserved_bits; /* 0 */
+    uint32_t size;            /* sizeof(gjk2f_options) in your build; never 0 */
+    uint32_t max_steps;       /* 0: 256. One step is one support call on each shape */
+    float abs_tol;           /* stop at upper - lower <= abs_tol + rel_tol * upper; */
+    float rel_tol;           /*   both 0: as tight as rounding allows */
+    float cutoff;            /* > 0: stop once lower is above it; value may then be as far off as upper */
+    float slack;             /* how far a support may fall short of the farthest point, in its set's own coordinates */
+    gjk2f_cache *cache;        /* NULL: start cold */
+    void *workspace;          /* for penetration, aligned for a float; NULL: it takes its own from the stack */
+    uint32_t tight;           /* 1: the distance of points, box, segment and origin to the last place, see below */
+    uint32_t workspace_bytes; /* of the workspace; 0 where there is none */
 } gjk2f_options;
 
 /* Never grows. Points are as good as the coordinates of their frame: far from its origin they round. */
@@ -108,6 +108,22 @@ GJK_API int gjk2f_distance(const gjk2f_shape *a, const gjk2f_shape *b, const gjk
  *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
  * abs_tol, rel_tol and cutoff play no part. */
 GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
+
+/* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else minus
+ * the depth, which is the length of the shortest way that one of them can be moved to where they only touch. One number
+ * that passes through 0 without a break: moving b by -value * normal makes the shapes touch. The normal is that of the
+ * closest pair. Overlapping, point_a is the point of a deepest in b along the normal, point_b that of b deepest in a,
+ * and point_a - point_b is depth * normal. Of round shapes the points are off sideways by about the
+ * root of what the bracket is wide, and with GJK_LIMIT they go with the polytope as far as it got.
+ *
+ * The depth is sought by a polygon that grows within the difference of the shapes. Its corners have a workspace; where
+ * that is full the bracket holds all the same, status GJK_LIMIT. Polygons of everyday size need 10 to 30 corners. Radii
+ * take no room. cutoff and tolerances are as for distance. */
+GJK_API int gjk2f_penetration(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
+/* The bytes of a workspace for so many corners, from 8 to 16384; 0 for other numbers. Without one there is room for 64,
+ * 7168 bytes of stack, in float 4096. Calls may run at once unless they share a workspace; what it holds before and
+ * after is of no account. */
+GJK_API size_t gjk2f_workspace_size(uint32_t corners);
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
  * a set without points, comes back as GJK_BAD_SUPPORT. A disc, a capsule or a rounded box is cheapest as

@@ -4,7 +4,7 @@
 #define GJK_CORE_API_H
 
 #include "intersect.h"
-#include "tight.h"
+#include "penetration.h"
 #include "widen.h"
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
@@ -37,8 +37,7 @@ static int read_options(options *o, const options *given)
     if (o->max_steps == 0) o->max_steps = 256;
     if (o->max_steps > INT32_MAX / 4) o->max_steps = INT32_MAX / 4;
     return o->abs_tol >= 0 && o->rel_tol >= 0 && o->cutoff >= 0 && o->slack >= 0 && bounded(o->abs_tol) &&
-           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) && o->reserved == NULL && o->tight <= 1 &&
-           o->reserved_bits == 0;
+           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) && o->tight <= 1;
 }
 
 /* What a later query of this pair may start from. */
@@ -153,7 +152,7 @@ static real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 
 
 /* The witnesses, from the cores' to the shapes': each moves toward the other by its radius, or, where the radii reach
  * across, both move to one point between. */
-static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b)
+static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b, int deep)
 {
     real radius = a->radius + b->radius, level = level_of(&q->d, radius, larger(far_out(a), far_out(b)));
     real down = level * q->d.unscale;
@@ -161,7 +160,11 @@ static void witness(result *r, const search *q, const real weight[], const shape
     vec on_b = witness_of(&q->d.b, b->pose, &q->s, weight, offsetof(vertex, y), down, level);
     vec way = blend(&q->s, weight, offsetof(vertex, w), 1);
     real l = length(way);
-    if (r->upper <= 0 || l * down < radius * level) {
+    if (deep) {
+        vec n = deep > 1 || !(l > 0) ? q->normal : mul(way, -1 / l);
+        on_a = add(on_a, mul(n, a->radius * level));
+        on_b = sub(on_b, mul(n, b->radius * level));
+    } else if (r->upper <= 0 || l * down < radius * level) {
         real share = a->radius > 0 ? a->radius / radius : 0;
         on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
     } else if (radius > 0) {
@@ -183,16 +186,18 @@ static int unanswered(const search *q, const result *r, const options *o, const 
     if (r->lower <= 0 && r->upper > 0) return 1;
     if (g->sign_only && r->lower > 0) return 0;
     if (q->lower <= near + margin && upper >= near - margin) return 1;
+    if (g->deep && q->lower <= margin) return 1;
     if (g->sign_only) return 0;
-    if (r->upper <= 0) return q->s.n > DIM && peak(blend(&q->s, weight, offsetof(vertex, w), 1)) > 8 * UNIT;
+    if (g->deep && upper <= 0) return 0;
+    if (r->upper <= 0 && !g->deep) return q->s.n > DIM && peak(blend(&q->s, weight, offsetof(vertex, w), 1)) > 8 * UNIT;
     return o->tight || q->stuck || coarse(q, upper);
 }
 
 /* The bracket of the distance is as narrow as asked. */
-static int narrow(const result *r, const options *o, real level)
+static int narrow(const result *r, const options *o, int deep, real level)
 {
-    real asked = o->abs_tol * level + o->rel_tol * (r->upper * level);
-    return (r->upper - larger(r->lower, 0)) * level <= asked;
+    real far = r->upper < 0 ? -r->lower : r->upper, lower = deep ? r->lower : larger(r->lower, 0);
+    return (r->upper - lower) * level <= o->abs_tol * level + o->rel_tol * (far * level);
 }
 
 /* Finishes the search without rounding, and replaces what the result says of the distance. OPEN, FAULT: that can't be
@@ -207,9 +212,10 @@ static APART enum end tighten(search *q, const shape *a, const shape *b, const g
     hand_back(&f, q, weight);
     store(r->normal, q->normal);
     if (f.over.sign != 0) r->lower = ends[0]; /* else that bounds no depth */
+    q->met = f.over.sign == 0;
     r->value = ends[1];
     r->upper = smaller(r->upper, ends[2]); /* which may know of an overlap */
-    witness(r, q, weight, a, b);
+    witness(r, q, weight, a, b, 2 * g->deep);
     return STILL;
 }
 
@@ -220,7 +226,7 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
 {
     bracket(r, &q->d, q->lower, upper, g->radius);
     store(r->normal, q->normal);
-    witness(r, q, weight, a, b);
+    witness(r, q, weight, a, b, g->deep);
     r->value = 0;
     if (g->sign_only) return;
     real low = q->lower + q->d.doubt - 2 * UNIT * (size(q->lower) + q->d.doubt);
@@ -238,27 +244,75 @@ static enum end take_further(search *q, const shape *a, const shape *b, const op
                              real weight[], result *r)
 {
     if (g->exact) return EXACT && unanswered(q, r, o, g, upper, weight) ? tighten(q, a, b, g, r, weight) : FAULT;
-    int open = r->upper > 0 && (g->sign_only ? r->lower <= 0 : !narrow(r, o, level_of(&q->d, g->radius, 0)));
+    int open = g->sign_only ? r->lower <= 0 && r->upper > 0
+                            : (g->deep || r->upper > 0) && !narrow(r, o, g->deep, level_of(&q->d, g->radius, 0));
     return open ? ask_sister(q, a, b, o, g, r) : FAULT;
 }
 
-/* What both questions share: the cores' search, its bracket with the radii taken off, and what a finish adds. FAULT: a
+/* The cores meet, or rounding leaves it open: the depth instead of the distance. */
+static APART enum end plumb(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
+                            real weight[], result *r)
+{
+    real own[USUAL_ROOM];
+    polytope p = o->workspace ? polytope_in(o->workspace, tips_in(o->workspace_bytes)) : polytope_in(own, USUAL_TIPS);
+    goal here = scaled(g, q->d.scale);
+    if (q->met) upper = smaller(upper, 0);
+    enum end end = fathom(q, a, b, &here, p, &upper, weight);
+    if (end == FAULT || !(q->lower <= upper)) return FAULT;
+    bracket(r, &q->d, q->lower, upper, g->radius);
+    store(r->normal, q->normal);
+    witness(r, q, weight, a, b, 2);
+    int touching = q->met && upper == 0 && !(q->lower < -4096 * UNIT * UNIT);
+    r->value = touching ? -g->radius : r->lower / 2 + r->upper / 2;
+    enum end further = g->exact || end == OPEN ? FAULT : take_further(q, a, b, o, g, upper, weight, r);
+    return further == FAULT ? end : further;
+}
+
+/* The cores are apart, and known by their corners: the normal, and where the radii overlap the bracket, to more digits.
+ */
+static void point_out_apart(search *q, const shape *a, const shape *b, const goal *g, real upper, const real weight[],
+                            result *r)
+{
+    if (r->lower <= 0) {
+        bound_apart(q, a, b, g, weight, &upper);
+        bracket(r, &q->d, q->lower, upper, g->radius);
+    }
+    point_along_pair(q, a, b, g, weight);
+    store(r->normal, q->normal);
+    if (g->radius > 0) witness(r, q, weight, a, b, 2);
+}
+
+/* Whether the cores are not proven to be apart, by rounded bounds or without rounding. */
+static int may_meet(const search *q, const goal *g, enum end further)
+{
+    return !(q->lower > 0) && !(g->exact && further == STILL && !q->met);
+}
+
+/* What the questions share: the cores' search, its bracket with the radii taken off, and what a finish adds. FAULT: a
  * support's answer was none, or the bounds cross. */
 static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     real upper, weight[DIM + 1];
-    enum end end = run(q, a, b, o, g, &upper, weight);
+    q->met = 0;
+    enum end end = run(q, a, b, o, g, &upper, weight), further = FAULT;
     int still = end == STILL || end == INSIDE;
     /* the distance of known corners needs no probing, the exact finish tells more; overlap does */
-    int probed = still && (g->sign_only || !g->exact);
+    int probed = still && !g->deep && (g->sign_only || !g->exact);
     if (end == FAULT || (probed && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     answer(q, a, b, g, upper, weight, r);
-    enum end further = still ? take_further(q, a, b, o, g, upper, weight, r) : FAULT;
+    if (still && (!g->deep || g->exact || q->lower > 0)) further = take_further(q, a, b, o, g, upper, weight, r);
+    if (further != FAULT) end = further;
+    if (g->deep && may_meet(q, g, further)) {
+        end = plumb(q, a, b, o, g, upper, weight, r);
+        if (end == FAULT) return FAULT;
+    } else if (g->deep && g->exact && further == FAULT) {
+        point_out_apart(q, a, b, g, upper, weight, r);
+    }
     if (o->cache) remember(o->cache, q, a, b);
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
-    return further == FAULT ? end : further;
+    return end;
 }
 
 /* The radius in it, the bracket may be this wide and still be as tight as rounding allows. */
@@ -268,11 +322,11 @@ static int tight_enough(const result *r, const difference *d, real radius, real 
     return (r->upper - r->lower) * level <= rounding;
 }
 
-static int distance_status(const result *r, const options *o, enum end end, const difference *d, real radius)
+static int distance_status(const result *r, const options *o, enum end end, const difference *d, real radius, int deep)
 {
     real level = level_of(d, radius, 0);
     if (o->cutoff > 0 && r->lower > o->cutoff) return GJK_DECIDED;
-    if (narrow(r, o, level) || end == WITHIN) return GJK_OK;
+    if (narrow(r, o, deep, level) || end == WITHIN) return GJK_OK;
     if (end == OPEN) return GJK_LIMIT;
     return o->abs_tol == 0 && o->rel_tol == 0 && tight_enough(r, d, radius, level) ? GJK_OK : GJK_FLOOR;
 }
@@ -300,7 +354,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, &o, end, &q.d, radius);
+    r.status = distance_status(&r, &o, end, &q.d, radius, 0);
     *out = r;
     return r.status;
 }
@@ -325,6 +379,44 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     if (end == FAULT) return GJK_BAD_SUPPORT;
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
+    *out = r;
+    return r.status;
+}
+
+GJK_API size_t pub(workspace_size)(uint32_t corners)
+{
+    return corners >= FEWEST_TIPS && corners <= MOST_TIPS ? bytes_for(corners) : 0;
+}
+
+/* A workspace is there, aligned, and large enough; or there is none. */
+static int has_workspace(const options *o)
+{
+    if (!o->workspace) return o->workspace_bytes == 0;
+    return (uintptr_t)o->workspace % sizeof(real) == 0 && o->workspace_bytes >= bytes_for(FEWEST_TIPS);
+}
+
+GJK_API int pub(penetration)(const shape *a, const shape *b, const options *given, result *out)
+{
+    options o;
+    search q;
+    result r;
+    if (!out || !sound(a) || !sound(b) || !read_options(&o, given) || !has_workspace(&o)) return GJK_BAD_ARGUMENT;
+    real radius = a->radius + b->radius;
+    goal g = {.beyond = REAL_MAX,
+              .within = -1,
+              .radius = radius,
+              .abs_tol = o.abs_tol,
+              .rel_tol = o.rel_tol,
+              .early = o.abs_tol > 0 || o.rel_tol > 0,
+              .exact = EXACT && o.slack == 0 && has_corners(a) && has_corners(b),
+              .deep = 1,
+              .max_steps = (int)o.max_steps};
+    if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
+
+    enum end end = solve(&q, a, b, &o, &g, &r);
+    if (end == FAULT) return GJK_BAD_SUPPORT;
+    r.value = smaller(larger(r.value, r.lower), r.upper);
+    r.status = distance_status(&r, &o, end, &q.d, radius, 1);
     *out = r;
     return r.status;
 }

@@ -26,6 +26,7 @@ typedef struct goal {
     int early;             /* whether anything but beyond can end it early */
     int sign_only;         /* stop at the first proof of the sign */
     int exact;             /* both sets' corners are known: the end of the search can be without rounding */
+    int deep;              /* the depth is wanted, where they overlap */
     int max_steps;
 } goal;
 
@@ -51,6 +52,7 @@ typedef struct search {
     int stuck;     /* because it brought v no nearer, although it lies lower along v */
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
+    int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
 } search;

@@ -31,6 +31,12 @@ static inline twin product_of(real a, real b)
     return r;
 }
 
+static inline twin product_of_twins(twin a, twin b)
+{
+    twin r = product_of(a.high, b.high);
+    return sum_of(r.high, r.low + (a.high * b.low + a.low * b.high));
+}
+
 /* Adds x to the sum, keeping what is rounded off. */
 static inline void gather(twin *sum, twin x)
 {

@@ -20,16 +20,17 @@ static inline vec cross(vec a, vec b)
     return r;
 }
 
+static inline vec edge_to(const simplex *s, int i) { return sub(point(s, i), point(s, 0)); }
+
 /* Two sides of a triangle and its normal, with their squared lengths. */
 typedef struct sides {
     vec a, b, n;
     real aa, bb, nn;
 } sides;
 
-static inline sides sides_of(vec p, vec q, vec r)
+static inline sides sides_of(vec a, vec b)
 {
-    sides t = {.a = sub(q, p), .b = sub(r, p)};
-    t.n = cross(t.a, t.b);
+    sides t = {.a = a, .b = b, .n = cross(a, b)};
     t.aa = dot(t.a, t.a);
     t.bb = dot(t.b, t.b);
     if (!(dot(t.n, t.n) > SLENDER * t.aa * t.bb))
@@ -59,7 +60,7 @@ static void across(vec p, vec along, vec aside, vec *v, real weight[3])
  * leeway. Weights of p, q, r. */
 static inline int face(vec p, vec q, vec r, real leeway, vec *v, real weight[3])
 {
-    sides t = sides_of(p, q, r);
+    sides t = sides_of(sub(q, p), sub(r, p));
     if (has_normal(&t)) {
         weight[1] = dot(t.n, cross(t.b, p));
         weight[2] = dot(t.n, cross(p, t.a));
@@ -156,14 +157,14 @@ static vec nearest(simplex *s)
 static vec square_to(const simplex *s, vec v)
 {
     if (s->n != 2 && s->n != 3) return v;
-    sides t = sides_of(point(s, 0), point(s, 1), point(s, s->n - 1));
+    sides t = sides_of(edge_to(s, 1), edge_to(s, s->n - 1));
     if (has_normal(&t)) return mul(t.n, dot(t.n, v) / t.nn);
     return sub(v, t.aa > t.bb ? mul(t.a, dot(v, t.a) / t.aa) : mul(t.b, dot(v, t.b) / t.bb));
 }
 
 static void change(const simplex *s, vec way, real weight[4])
 {
-    sides t = sides_of(point(s, 0), point(s, 1), point(s, s->n > 2 ? 2 : 1));
+    sides t = sides_of(edge_to(s, 1), edge_to(s, s->n > 2 ? 2 : 1));
     for (int i = 0; i < 4; i++) weight[i] = 0;
     if (s->n == 4) {
         vec c = sub(point(s, 3), point(s, 0));

@@ -69,10 +69,6 @@ static void reverse(dyadics *a)
     for (int i = 0; i < DIM; i++) a->c[i].sign = -a->c[i].sign;
 }
 
-#if DIM == 2
-/* a turned by a quarter, which is the normal of an edge. */
-static dyadics quarter(const dyadics *a) { return (dyadics){{opposite_of(&a->c[1]), a->c[0]}}; }
-#else
 /* p q - r s */
 static dyadic minor(const dyadic *p, const dyadic *q, const dyadic *r, const dyadic *s)
 {
@@ -80,6 +76,10 @@ static dyadic minor(const dyadic *p, const dyadic *q, const dyadic *r, const dya
     return plus(&t, &u, -1);
 }
 
+#if DIM == 2
+/* a turned by a quarter, which is the normal of an edge. */
+static dyadics quarter(const dyadics *a) { return (dyadics){{opposite_of(&a->c[1]), a->c[0]}}; }
+#else
 static dyadics outer(const dyadics *a, const dyadics *b)
 {
     dyadics r;
@@ -352,12 +352,6 @@ static twin quotient_of(twin a, twin b)
     real q = a.high / b.high;
     twin back = product_of(q, b.high);
     return sum_of(q, ((a.high - back.high) - back.low + a.low - q * b.low) / b.high);
-}
-
-static twin product_of_twins(twin a, twin b)
-{
-    twin r = product_of(a.high, b.high);
-    return sum_of(r.high, r.low + (a.high * b.low + a.low * b.high));
 }
 
 /* A twin and the power of two that goes with it: of any magnitude. */

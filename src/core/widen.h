@@ -121,6 +121,7 @@ static APART enum end ask_sister(search *q, const shape *a, const shape *b, cons
     sister(options) asked = sister_options(o, q);
     if (q->steps >= g->max_steps || !widen(&wide_a, a) || !widen(&wide_b, b)) return FAULT;
     int status = g->sign_only ? sister(intersect)(&wide_a.shape, &wide_b.shape, &asked, &hers)
+                 : g->deep    ? sister(penetration)(&wide_a.shape, &wide_b.shape, &asked, &hers)
                               : sister(distance)(&wide_a.shape, &wide_b.shape, &asked, &hers);
     if (status < 0) return FAULT;
     real lower = rounded_down(hers.lower), upper = -rounded_down(-hers.upper);

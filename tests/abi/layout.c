@@ -42,8 +42,8 @@ static void expect_packed(const char *name, size_t size)
     STRUCT(gjk, shape, F(support) F(data) F(pose) F(radius))                                                           \
     PACKED(gjk, cache, F(a) F(b) F(reach_a) F(reach_b) F(support) F(data) F(count) F(reserved))                        \
     PACKED(gjk, options,                                                                                               \
-           F(size) F(max_steps) F(abs_tol) F(rel_tol) F(cutoff) F(slack) F(cache) F(reserved) F(tight)                 \
-               F(reserved_bits))                                                                                       \
+           F(size) F(max_steps) F(abs_tol) F(rel_tol) F(cutoff) F(slack) F(cache) F(workspace) F(tight)                \
+               F(workspace_bytes))                                                                                     \
     PACKED(gjk, result,                                                                                                \
            F(value) F(lower) F(upper) F(point_a) F(point_b) F(normal) F(status) F(steps) F(supports) F(reserved))      \
     STRUCT(gjk, points, F(v) F(count) F(stride) F(reserved) F(reach))                                                  \

@@ -85,6 +85,26 @@ def pairs(draw: Any, couples: bool = True) -> tuple[int, dict[str, Any], dict[st
     return dim, draw(shapes(dim, couples)), draw(shapes(dim, couples))
 
 
+SHARP = {"points", "box", "segment", "triangle", "sphere", "capsule"}
+
+
+@st.composite
+def sharp_shapes(draw: Any, dim: int) -> dict[str, Any]:
+    """Those with corners that the library knows."""
+    shape = draw(sets(dim).filter(lambda shape: shape["shape"] in SHARP))
+    if draw(st.booleans()):
+        shape = {**shape, "pose": draw(poses(dim))}
+    if shape["shape"] not in ("sphere", "capsule") and draw(st.integers(0, 3)) == 0:
+        shape = {**shape, "radius": draw(size)}
+    return shape
+
+
+@st.composite
+def sharp_pairs(draw: Any) -> tuple[int, dict[str, Any], dict[str, Any]]:
+    dim = draw(st.sampled_from([2, 3]))
+    return dim, draw(sharp_shapes(dim)), draw(sharp_shapes(dim))
+
+
 def prepared(pair: Any, precision: str) -> tuple[gjk.Shape, gjk.Shape, exact.Truth]:
     """The shapes, and the truth about them as this precision holds them."""
     dim, a, b = pair

@@ -49,7 +49,7 @@ BAD = [
 @pytest.mark.parametrize(("kind", "words", "make"), BAD, ids=[words for _, words, _ in BAD])
 def test_bad_shapes(precision, kind, words, make):
     good = gjk.Box((1, 1, 1), pose=POSE)
-    for ask in (gjk.distance, gjk.intersect):
+    for ask in (gjk.distance, gjk.intersect, gjk.penetration):
         with pytest.raises(kind, match=words) as wrong:
             ask(make(), good, precision=precision)
         assert wrong.value.status < 0
@@ -61,14 +61,26 @@ def test_bad_shapes(precision, kind, words, make):
 @pytest.mark.parametrize("option", ["cutoff", "abs_tol", "rel_tol", "slack"])
 @pytest.mark.parametrize("number", [NAN, INF, -INF, -1.0, "1", None])
 def test_bad_options(precision, option, number):
-    with pytest.raises(gjk.BadArgument, match="option"):
-        gjk.distance(gjk.Sphere(1), gjk.Sphere(1), precision=precision, **{option: number})
+    for ask in (gjk.distance, gjk.penetration):
+        with pytest.raises(gjk.BadArgument, match="option"):
+            ask(gjk.Sphere(1), gjk.Sphere(1), precision=precision, **{option: number})
 
 
 @pytest.mark.parametrize("steps", [-1, 2**32, 1.5, "3"])
 def test_bad_step_limits(steps):
-    with pytest.raises(gjk.BadArgument, match="option"):
-        gjk.distance(gjk.Sphere(1), gjk.Sphere(1), max_steps=steps)
+    for ask in (gjk.distance, gjk.penetration):
+        with pytest.raises(gjk.BadArgument, match="option"):
+            ask(gjk.Sphere(1), gjk.Sphere(1), max_steps=steps)
+
+
+@precisions
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("corners", [7, 16385, 0, -1, 2**32 + 64, 64.0, NAN, "64", None, True, [64]])
+def test_bad_numbers_of_corners(precision, dim, corners):
+    words = "^option corners is a whole number from 8 to 16384, not "
+    with pytest.raises(ValueError, match=words) as wrong:
+        gjk.penetration(gjk.Sphere(1, dim=dim), gjk.Sphere(1, dim=dim), precision=precision, corners=corners)
+    assert wrong.value.status is gjk.Status.BAD_ARGUMENT
 
 
 @pytest.mark.parametrize("precision", ["half", None, 2, []])
@@ -79,7 +91,7 @@ def test_bad_precision(precision):
 
 @pytest.mark.parametrize("thing", [3, None, "box", (1, 1, 1), np.ones(3), gjk.Sphere])
 def test_what_is_no_shape(thing):
-    for ask in (gjk.distance, gjk.intersect):
+    for ask in (gjk.distance, gjk.intersect, gjk.penetration):
         with pytest.raises(gjk.BadArgument, match=f"^a: a shape is expected, not {type(thing).__name__}$"):
             ask(thing, gjk.Sphere(1))
         with pytest.raises(gjk.BadArgument, match=f"^b: a shape is expected, not {type(thing).__name__}$"):
@@ -88,7 +100,7 @@ def test_what_is_no_shape(thing):
 
 @pytest.mark.parametrize("cache", [{}, 3, False, gjk.Cache])
 def test_what_is_no_cache(cache):
-    for ask in (gjk.distance, gjk.intersect):
+    for ask in (gjk.distance, gjk.intersect, gjk.penetration):
         with pytest.raises(gjk.BadArgument, match=f"^cache: a Cache is expected, not {type(cache).__name__}$"):
             ask(gjk.Sphere(1), gjk.Sphere(1), cache=cache)
 

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from pairs import pairs, prepared
 
 import gjk
+from gjk import exact
 from gjk.cli import answer_lines, main
 
 BOX = {"shape": "box", "half": [1, 1, 1]}
@@ -69,7 +70,8 @@ def test_exact_contact_is_told_where_asked():
 
 
 def test_touching_is_neither():
-    touching = {**CASE, "b": {"shape": "cylinder", "r": 1, "half_length": 1, "pose": [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]}}
+    beside = [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]
+    touching = {**CASE, "b": {"shape": "cylinder", "r": 1, "half_length": 1, "pose": beside}}
     (answer,), _ = ask({**touching, "query": "intersect"})
     assert answer["status"] == "floor"
     assert answer["lower"] <= 0 <= answer["upper"]
@@ -92,6 +94,32 @@ def test_options_and_precision():
 def test_options_of_distances_do_not_spoil_an_intersection():
     (answer,), _ = ask({**CASE, "query": "intersect", "options": {"rel_tol": 0.1, "max_steps": 9}})
     assert answer["status"] == "decided"
+
+
+def test_options_of_penetrations_do_not_spoil_other_questions():
+    cases = [{**CASE, "query": query, "options": {"corners": 7, "cutoff": 1}} for query in ("distance", "intersect")]
+    answers, _ = ask(*cases)
+    assert [answer["status"] for answer in answers] == ["decided", "decided"]
+
+
+def test_depth_has_a_sign():
+    deep = {**CASE, "b": {**BALL, "pose": [1, 0, 0, 0.75, 0, 1, 0, 0, 0, 0, 1, 0]}}
+    answers, code = ask(deep, CASE, query="penetration")
+    assert code == 0
+    assert [answer["value"] for answer in answers] == [-0.75, 2.5]
+    assert [answer["intersect"] for answer in answers] == [True, False]
+    assert answers[0]["normal"] == [1, 0, 0]
+    assert (answers[0]["point_a"], answers[0]["point_b"]) == ([1, 0, 0], [0.25, 0, 0])
+
+
+def test_more_corners_for_round_shapes():
+    lemon = {"shape": "ellipsoid", "radii": [1, 2, 3]}
+    deep = {**CASE, "query": "penetration", "a": lemon, "b": {**lemon, "pose": [0, 1, 0, 0.5, 0, 0, 1, 0, 1, 0, 0, 0]}}
+    few, many = ask(*({**deep, "options": {"corners": n, "max_steps": 1000}} for n in (8, 1000)))[0]
+    assert few["status"] == "limit"
+    assert many["status"] != "limit"
+    assert few["upper"] - few["lower"] > 1e6 * (many["upper"] - many["lower"])
+    assert few["lower"] <= many["value"] <= few["upper"]
 
 
 @given(pair=pairs(), precision=st.sampled_from(["double", "float"]))
@@ -134,7 +162,9 @@ def test_cases_of_every_shape(pair, precision):
         ({"options": {"tight": "true"}, "query": "intersect"}, "bad argument", "tight"),
         ({"options": {"rel_tol": 0.1, "max_step": 1}}, "bad argument", "'max_step'"),
         ({"options": {"rel-tol": 0.1}, "query": "intersect"}, "bad argument", "'rel-tol'"),
-        ({"query": "penetration"}, "unsupported query", "penetration"),
+        ({"options": {"corners": 7}, "query": "penetration"}, "bad argument", "corners"),
+        ({"options": {"corners": "64"}, "query": "penetration"}, "bad argument", "corners"),
+        ({"options": {"corner": 64}, "query": "penetration"}, "bad argument", "'corner'"),
         ({"query": "cast"}, "unsupported query", "cast"),
         ({"query": ["toi"]}, "unsupported query", "toi"),
     ],
@@ -192,6 +222,18 @@ def test_the_cases_that_all_tests_share(name):
         assert len(distances) == len(verdicts) == len(cases) > 100
         solved = zip(cases, distances, verdicts)
         assert [case["id"] for case, *answers in solved if not agrees(case["expect"], *answers)] == []
+
+
+@pytest.mark.parametrize("name", ["gjk2", "gjk2f", "gjk3", "gjk3f", "museum"])
+def test_the_depths_of_the_cases_that_all_tests_share(name):
+    lines = (CASES / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()
+    cases = [case for case in map(json.loads, lines) if case["expect"]["relation"] != "apart"]
+    answers, code = ask(*({**case, "query": "penetration", "options": {}} for case in cases))
+    assert code == 0
+    truths = [exact.solve_case(case).separation for case in cases]
+    solved = [(case["id"], answer, truth) for case, answer, truth in zip(cases, answers, truths) if truth]
+    assert len(solved) > 5
+    assert [id for id, answer, (lower, upper) in solved if answer["lower"] > upper or lower > answer["upper"]] == []
 
 
 def agrees(expect, distance, verdict):

@@ -62,6 +62,19 @@ def test_scaling_by_a_power_of_two(precision, pair, power):
     assert scaled.normal == once.normal
 
 
+@precisions
+@given(pair=pairs(), power=st.integers(-20, 20))
+def test_scaling_a_depth_by_a_power_of_two(precision, pair, power):
+    a, b, _ = prepared(pair, precision)
+    factor = 2.0**power
+    once = gjk.penetration(times(a, 1.0), times(b, 1.0), precision=precision)
+    scaled = gjk.penetration(times(a, factor), times(b, factor), precision=precision)
+    assume(abs(once.lower) > 1e-30)
+    assert scaled.value == once.value * factor
+    assert (scaled.lower, scaled.upper) == (once.lower * factor, once.upper * factor)
+    assert scaled.normal == once.normal
+
+
 def times(shape, factor):
     """The set multiplied by a power of two, with nothing rounded."""
     dim = shape.dim

@@ -7,11 +7,12 @@ import csv
 import json
 import re
 import sys
+from fractions import Fraction
 from html.parser import HTMLParser
 
 import pytest
 
-from gjk import Box, distance
+from gjk import Box, distance, penetration
 from gjk.cli import main
 from gjk.exact import APART, OVERLAPPING, TOUCHING
 from gjk.report import measure, table, truth
@@ -78,6 +79,7 @@ def test_the_report_of_a_tiny_scene(scene, tmp_path, capsys):
     assert "hold the truth" in printed.out
     assert "rel_tol, relative to the distance" in printed.out
     assert re.search("^tight +[0-9]", printed.out, re.MULTILINE)
+    assert re.search(r"^Penetration: [0-9]+ ns", printed.out, re.MULTILINE)
     assert "exact truth" in printed.err
     check_rows(list(csv.DictReader((out / "report.csv").read_text(encoding="utf-8").splitlines())))
     check_page((out / "report.html").read_text(encoding="utf-8"))
@@ -98,6 +100,8 @@ def check_rows(rows):
         one = next(row for row in mine if row["setting"] == "1 steps")
         assert 0 < float(full["error_max"]) < 100
         assert float(full["error_max"]) <= float(full["width_max"]) < 1000
+        depth = next(row for row in mine if row["query"] == "penetration")
+        assert float(depth["error_max"]) <= float(depth["width_max"]) < 1000
         tight = next(row for row in mine if row["setting"] == "tight")
         assert float(tight["error_max"]) <= float(full["error_max"])
         assert float(tight["width_median"]) < float(full["width_median"])
@@ -146,6 +150,22 @@ def test_a_broken_bracket_is_found(scene):
         assert table.summarise("double", pairs, [found[0]._replace(relation=relation)], answers).intersect.violations
 
 
+def test_a_broken_depth_is_found():
+    pairs = [Pair("a", "b", Box((1, 1, 1)), Box((1, 1, 1)).at((1.5, 0, 0)))]
+    found = truth.find(pairs, 3, 1, lambda done, total: None)
+    assert found[0].separation == (-0.5, -0.5)
+    answers = measure.solve(pairs, 3, "double", lambda done, total: None)
+    kept = table.summarise("double", pairs, found, answers)
+    assert (kept.penetration.known, kept.violations) == (1, 0)
+    assert kept.penetration.error <= kept.penetration.width
+    deeper = [found[0]._replace(separation=(Fraction(-1), Fraction(-1)))]
+    broken = table.summarise("double", pairs, deeper, answers)
+    assert broken.violations == broken.penetration.violations == 1
+    assert broken.penetration.error == pytest.approx(0.5 / (2.0**-53 * found[0].scale))
+    unknown = table.summarise("double", pairs, [found[0]._replace(separation=None)], answers)
+    assert (unknown.penetration.known, unknown.penetration.error, unknown.violations) == (0, 0, 0)
+
+
 def test_a_turned_ellipsoid_in_float(tmp_path):
     """Its radii times its rotation would round: the bracket would be that of another set, and miss this one."""
     box = {"shape": "box", "half": [0.010999917984008789, 0.004400014877319336, 0.0018999576568603516]}
@@ -181,6 +201,10 @@ def test_answers_are_those_of_the_library(scene):
                 settings = {"tight": True} if level.level.kind == "tight" else {"rel_tol": level.level.setting}
                 for pair, answer in zip(pairs, level.answers):
                     result = distance(pair.a, pair.b, precision=precision, **settings)
+                    assert (result.value, result.lower, result.upper) == answer[:3]
+            if level.level.kind == "penetration":
+                for pair, answer in zip(pairs, level.answers):
+                    result = penetration(pair.a, pair.b, precision=precision)
                     assert (result.value, result.lower, result.upper) == answer[:3]
 
 

@@ -9,31 +9,13 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pairs import inside, pairs, poses, prepared, sets, shapes, size
+from pairs import inside, pairs, prepared, shapes, sharp_pairs
 
 import gjk
 from gjk import Relation, exact
 from gjk.cases import shape_from_json
 
 precisions = pytest.mark.parametrize("precision", ["double", "float"])
-
-SHARP = {"points", "box", "segment", "triangle", "sphere", "capsule"}
-
-
-@st.composite
-def sharp_shapes(draw, dim):
-    shape = draw(sets(dim).filter(lambda shape: shape["shape"] in SHARP))
-    if draw(st.booleans()):
-        shape = {**shape, "pose": draw(poses(dim))}
-    if shape["shape"] not in ("sphere", "capsule") and draw(st.integers(0, 3)) == 0:
-        shape = {**shape, "radius": draw(size)}
-    return shape
-
-
-@st.composite
-def sharp_pairs(draw):
-    dim = draw(st.sampled_from([2, 3]))
-    return dim, draw(sharp_shapes(dim)), draw(sharp_shapes(dim))
 
 
 def ulp(x, precision):
@@ -148,6 +130,6 @@ def test_gaps_far_below_the_size(precision, gap):
 @precisions
 @pytest.mark.parametrize("tight", [1, 0, 2, -1, 1.0, "yes", None, float("nan")])
 def test_only_true_and_false_are_taken(precision, tight):
-    for ask in (gjk.distance, gjk.intersect):
+    for ask in (gjk.distance, gjk.intersect, gjk.penetration):
         with pytest.raises(gjk.BadArgument, match="^option tight is True or False"):
             ask(gjk.Sphere(1), gjk.Sphere(1), precision=precision, tight=tight)

@@ -7,6 +7,9 @@
     >>> answer = gjk.distance(box, rod)
     >>> answer.value, answer.lower <= 2.5 <= answer.upper
     (2.5, True)
+    >>> answer = gjk.penetration(box, rod.at((1, 0, 0)))
+    >>> answer.value, answer.lower <= -0.5 <= answer.upper
+    (-0.5, True)
 
 Every answer is a bracket, lower <= truth <= upper, that holds in floating point and whenever the query stops.
 Lengths are in any one unit; there are no angles. The poses put both shapes in one frame, and points and normals
@@ -17,7 +20,7 @@ from __future__ import annotations
 
 from ._gjk import lib as _lib
 from .errors import BadArgument, BadSupport, Error, Status
-from .query import Cache, Relation, Result, Separation, distance, intersect
+from .query import Cache, Relation, Result, Separation, distance, intersect, penetration
 from .shapes import (
     Ball,
     Box,
@@ -63,6 +66,7 @@ __all__ = [
     "__version__",
     "distance",
     "intersect",
+    "penetration",
 ]
 
 _number = _lib.gjk_version()

@@ -24,17 +24,18 @@ static uint64_t now(void)
 #endif
 
 /* One body for four types: only the names differ. */
-#define BENCH(bench, gjk)                                                                              \
-    uint64_t bench(int intersect, const gjk##_shape *a, const gjk##_shape *b, size_t count,            \
-                   size_t repeats, const gjk##_options *options, gjk##_result *out)                    \
-    {                                                                                                  \
-        int (*ask)(const gjk##_shape *, const gjk##_shape *, const gjk##_options *, gjk##_result *) = \
-            intersect ? gjk##_intersect : gjk##_distance;                                              \
-        uint64_t start = now();                                                                        \
-        for (size_t r = 0; r < repeats; r++)                                                           \
-            for (size_t i = 0; i < count; i++)                                                         \
-                ask(&a[i], &b[i], options, &out[i]);                                                   \
-        return now() - start;                                                                          \
+#define BENCH(bench, gjk)                                                                                              \
+    uint64_t bench(int query, const gjk##_shape *a, const gjk##_shape *b, size_t count, size_t repeats,                \
+                   const gjk##_options *options, gjk##_result *out)                                                    \
+    {                                                                                                                  \
+        int (*ask)(const gjk##_shape *, const gjk##_shape *, const gjk##_options *, gjk##_result *) =                  \
+            query == 0   ? gjk##_distance                                                                              \
+            : query == 1 ? gjk##_intersect                                                                             \
+                         : gjk##_penetration;                                                                          \
+        uint64_t start = now();                                                                                        \
+        for (size_t r = 0; r < repeats; r++)                                                                           \
+            for (size_t i = 0; i < count; i++) ask(&a[i], &b[i], options, &out[i]);                                    \
+        return now() - start;                                                                                          \
     }
 
 BENCH(bench2, gjk2)

@@ -25,6 +25,8 @@ class Variant:
         self.name = f"gjk{dim}" + ("f" if precision == "float" else "")
         self.distance = self.function("distance")
         self.intersect = self.function("intersect")
+        self.penetration = self.function("penetration")
+        self.workspace_size = self.function("workspace_size")
         self.options_type = ffi.typeof(f"{self.name}_options *")
         self.options_size: int = ffi.sizeof(f"{self.name}_options")
         self.result_type = ffi.typeof(f"{self.name}_result *")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Cases and shapes as JSON objects: the one format of tests, tools and bug reports.
 
-A case is {"id", "dim": 2 | 3, "precision": "double" | "float", "query": "distance" | "intersect", "a": SHAPE,
-"b": SHAPE, "options": {...}}. Fields not known here are ignored, but for those of "options": an option that is
-misspelt would not do what it was written for. SHAPE is described in `shape_from_json`.
+A case is {"id", "dim": 2 | 3, "precision": "double" | "float", "query": "distance" | "intersect" | "penetration",
+"a": SHAPE, "b": SHAPE, "options": {...}}. Fields not known here are ignored, but for those of "options": an option that
+is misspelt would not do what it was written for. SHAPE is described in `shape_from_json`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any, Callable
 
 from .errors import BadArgument, Error, Status
-from .query import Result, distance, intersect
+from .query import Result, distance, intersect, penetration
 from .shapes import (
     Ball,
     Box,
@@ -31,11 +31,13 @@ from .shapes import (
 
 __all__ = ["QUERIES", "posed", "result_to_json", "shape_from_json", "shape_to_json", "solve_case"]
 
-QUERIES = ("distance", "intersect")
 OPTIONS = {
     "distance": ("cutoff", "max_steps", "abs_tol", "rel_tol", "slack", "tight"),
     "intersect": ("max_steps", "slack", "tight"),
+    "penetration": ("cutoff", "max_steps", "abs_tol", "rel_tol", "slack", "tight", "corners"),
 }
+QUERIES = tuple(OPTIONS)
+_FUNCTIONS: dict[str, Callable[..., Result]] = dict(zip(QUERIES, (distance, intersect, penetration)))
 
 
 def shape_from_json(shape: Any, dim: int) -> Shape:
@@ -147,12 +149,11 @@ def _ask(case: dict[str, Any], asked: str) -> Result:
     given = case.get("options") or {}
     if not isinstance(given, dict):
         raise BadArgument(f"options is an object, not {given!r}")
-    unknown = [name for name in given if name not in OPTIONS["distance"]]
+    unknown = [name for name in given if name not in OPTIONS["penetration"]]
     if unknown:
-        raise BadArgument(f"no such option: {unknown[0]!r}; known are {', '.join(OPTIONS['distance'])}")
+        raise BadArgument(f"no such option: {unknown[0]!r}; known are {', '.join(OPTIONS['penetration'])}")
     options = {name: given[name] for name in OPTIONS[asked] if name in given}
-    ask = distance if asked == "distance" else intersect
-    return ask(a, b, precision=case.get("precision", "double"), **options)
+    return _FUNCTIONS[asked](a, b, precision=case.get("precision", "double"), **options)
 
 
 def result_to_json(result: Result) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The questions: how far apart, and do they meet."""
+"""The questions: how far apart, do they meet, and how deep in each other."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from ._native import Variant, raise_from_callback, variant
 from .errors import BadArgument, Status, error
 from .shapes import Shape
 
-__all__ = ["Cache", "Relation", "Result", "Separation", "distance", "intersect"]
+__all__ = ["Cache", "Relation", "Result", "Separation", "distance", "intersect", "penetration"]
+
+OWN_CORNERS = 64
+"""For so many corners C has room of its own."""
 
 
 class Result(NamedTuple):
@@ -26,7 +29,8 @@ class Result(NamedTuple):
     point_a: tuple[float, ...]
     """A point of a. Apart, point_a and point_b are a closest pair, which realises upper; ..."""
     point_b: tuple[float, ...]
-    """... meeting, they are one and the same point of both."""
+    """... meeting, they are one and the same point of both; by `penetration` that of a deepest in b, and that of b
+    deepest in a."""
     normal: tuple[float, ...]
     """Unit, from a to b, always: the direction that realises lower."""
     status: Status
@@ -148,6 +152,47 @@ def intersect(
     return Separation._make(_ask(v, v.intersect, a, b, options, cache))
 
 
+def penetration(
+    a: Shape,
+    b: Shape,
+    *,
+    precision: str = "double",
+    cutoff: float = 0.0,
+    max_steps: int = 0,
+    abs_tol: float = 0.0,
+    rel_tol: float = 0.0,
+    slack: float = 0.0,
+    tight: bool = False,
+    corners: int = OWN_CORNERS,
+    cache: Cache | None = None,
+) -> Result:
+    """How far apart are a and b, or how deep in each other? The signed separation: the distance where they are apart,
+    else minus the depth, the length of the shortest move of one of them that leaves them touching. To move b by
+    -value * normal is such a move.
+
+    The depth is sought by a polytope that grows within the difference of the shapes. corners is how many it may have,
+    from 8 to 16384. Where they run out (Status.LIMIT) the bracket holds, and is wider than asked. Bodies with corners
+    of everyday size need 20 to 60, round ones about 100 for each six digits, and then max_steps of that order. With
+    64, the default, C takes the room from its stack; other numbers cost an allocation a call.
+    The other options are those of `distance`.
+    """
+    v = _variant(a, b, precision)
+    workspace, size = _workspace(v, corners)
+    options = _Options(cutoff, max_steps, abs_tol, rel_tol, slack, tight, size)
+    return Result._make(_ask(v, v.penetration, a, b, options, cache, workspace))
+
+
+def _workspace(v: Variant, corners: int) -> tuple[Any, int]:
+    """Room for so many corners, and its bytes; none where C has as much of its own."""
+    try:
+        size: int = v.workspace_size(corners)
+    except (TypeError, OverflowError):
+        size = 0
+    if size == 0:
+        raise BadArgument(f"option corners is a whole number from 8 to 16384, not {corners!r}")
+    return (ffi.NULL, 0) if corners == OWN_CORNERS else (ffi.new("double[]", size // 8 + 1), size)
+
+
 def _variant(a: Shape, b: Shape, precision: str) -> Variant:
     """The variant that answers for the two, which must be shapes of one dimension."""
     for name, shape in (("a", a), ("b", b)):
@@ -167,6 +212,7 @@ class _Options(NamedTuple):
     rel_tol: float = 0.0
     slack: float = 0.0
     tight: bool = False
+    workspace_bytes: int = 0
 
 
 _DEFAULTS = _Options()
@@ -179,6 +225,7 @@ def _ask(
     b: Shape,
     options: _Options,
     cache: Cache | None,
+    workspace: Any = ffi.NULL,
 ) -> tuple[Any, ...]:
     """The fields of a Result, or the exception that the status means."""
     if cache is not None and not isinstance(cache, Cache):
@@ -190,7 +237,7 @@ def _ask(
     settings = ffi.NULL
     if cache is not None or options != _DEFAULTS:
         held = ffi.NULL if cache is None else cache._prepare(v, a, b)
-        settings = _settings(v, options, held)
+        settings = _settings(v, options, held, workspace)
     out = ffi.new(v.result_type)
     status = question(native_a, native_b, settings, out)
     if python_a or python_b:
@@ -212,9 +259,11 @@ def _ask(
     )
 
 
-def _settings(v: Variant, options: _Options, cache: Any) -> Any:
+def _settings(v: Variant, options: _Options, cache: Any, workspace: Any) -> Any:
+    """The C struct; it does not keep alive what its pointers point to."""
+    pointers = {"cache": cache, "workspace": workspace}
     try:
-        return ffi.new(v.options_type, {"size": v.options_size, "cache": cache, **options._asdict()})
+        return ffi.new(v.options_type, {"size": v.options_size, **pointers, **options._asdict()})
     except (TypeError, OverflowError) as wrong:
         raise BadArgument(f"options {tuple(options)}: {wrong}") from None
 

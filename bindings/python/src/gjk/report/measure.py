@@ -7,6 +7,7 @@ from typing import Any, Callable, NamedTuple
 
 from .._gjk import ffi
 from .._native import Variant, variant
+from ..cases import QUERIES
 from ..errors import Error
 from ..query import distance
 from .scene import Pair
@@ -25,12 +26,12 @@ class Level(NamedTuple):
     """One rung of the ladder."""
 
     kind: str
-    """ "rel_tol", "tight", "max_steps" or "intersect"."""
+    """ "rel_tol", "tight" or "max_steps", of a distance; "intersect" or "penetration"."""
     setting: float
 
     @property
     def label(self) -> str:
-        if self.kind in ("tight", "intersect"):
+        if self.kind in ("tight", "intersect", "penetration"):
             return self.kind
         if self.setting == 0:
             return "full"
@@ -57,7 +58,7 @@ class Answers(NamedTuple):
 def ladder(precision: str) -> list[Level]:
     tolerances = [Level("rel_tol", tolerance) for tolerance in TOLERANCES[precision]]
     steps = [Level("max_steps", steps) for steps in STEPS]
-    return [*tolerances, Level("tight", 1), *steps, Level("intersect", 0)]
+    return [*tolerances, Level("tight", 1), *steps, Level("intersect", 0), Level("penetration", 0)]
 
 
 def solve(pairs: list[Pair], dim: int, precision: str, step: Callable[[int, int], None]) -> list[Answers]:
@@ -91,15 +92,15 @@ class _Watch:
         self.a = _array(v, [pair.a._native(v)[0] for pair in pairs])
         self.b = _array(v, [pair.b._native(v)[0] for pair in pairs])
         self.options = v.new("options", {"size": v.options_size})
-        if level.kind != "intersect":
+        if level.kind not in QUERIES:
             setattr(self.options, level.kind, level.setting if level.kind == "rel_tol" else int(level.setting))
         self.out = ffi.new(f"{v.name}_result[]", len(pairs))
         self.best = float("inf")
 
     def run(self) -> float:
         """One pass; returns its nanoseconds."""
-        asked = self.level.kind == "intersect"
-        ns: int = self.v.bench(asked, self.a, self.b, self.count, self.repeats, self.options, self.out)
+        asked = self.level.kind if self.level.kind in QUERIES else "distance"
+        ns: int = self.v.bench(QUERIES.index(asked), self.a, self.b, self.count, self.repeats, self.options, self.out)
         self.best = min(self.best, ns / (self.repeats * self.count))
         if ns < PASS:
             self.repeats *= 2

@@ -144,7 +144,7 @@ def _lead(scene: Scene, reports: list[Report]) -> str:
 
 
 def _cards(reports: list[Report]) -> list[str]:
-    asked = sum(len(report.pairs) * (len(report.rows) + 1) for report in reports)
+    asked = sum(report.asked for report in reports)
     broken = sum(report.violations for report in reports)
     cards = [_card(f"{broken}", f"of {asked:,} answers miss the truth", "bad" if broken else "")]
     for report in reports:
@@ -197,7 +197,7 @@ def _promise(reports: list[Report]) -> str:
 def _table(report: Report) -> str:
     before = [None, *report.rows]
     rows = "\n".join(_row(report, last, row) for last, row in zip(before, report.rows))
-    v = report.intersect
+    v, d = report.intersect, report.penetration
     return f"""<div class="table"><table>
 <caption>Distance, {report.precision}, {len(report.pairs):,} pairs</caption>
 <thead><tr><th></th><th></th><th></th><th colspan="3" style="--c: var(--true)">true error</th>
@@ -208,7 +208,9 @@ def _table(report: Report) -> str:
 {rows}
 </tbody></table></div>
 <p>Intersect: {v.ns:.0f} ns and {v.supports:.1f} support calls per query; {v.apart:,} apart, {v.meeting:,}
-meeting, {v.touching:,} touching, {v.violations} wrong.</p>"""
+meeting, {v.touching:,} touching, {v.violations} wrong.</p>
+<p>Penetration: {d.ns:.0f} ns and {d.supports:.1f} support calls per query; of {d.known:,} pairs with a known truth
+error up to {figure(d.error)}, promise up to {figure(d.width)}; {d.violations} broken.</p>"""
 
 
 def _row(report: Report, before: Row | None, row: Row) -> str:

@@ -8,12 +8,13 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
+from ..cases import QUERIES
 from ..exact import APART, OVERLAPPING
 from .measure import Answer, Answers, Level
 from .scene import Pair
 from .truth import Truth
 
-__all__ = ["COLUMNS", "UNIT", "Report", "Row", "Spread", "Verdicts", "summarise", "write"]
+__all__ = ["COLUMNS", "UNIT", "Depths", "Report", "Row", "Spread", "Verdicts", "summarise", "write"]
 
 UNIT = {"double": 2.0**-53, "float": 2.0**-24}
 
@@ -54,12 +55,28 @@ class Verdicts(NamedTuple):
     """Verdicts against the truth."""
 
 
+class Depths(NamedTuple):
+    """All pairs asked how far apart or how deep in each other."""
+
+    ns: float
+    supports: float
+    error: float
+    """The largest |value - truth| in u * scale of the pairs whose depth is known; ..."""
+    width: float
+    """... and the largest upper - lower."""
+    known: int
+    """So many pairs are these."""
+    violations: int
+    """Brackets that do not hold the truth, as far as it is known."""
+
+
 class Report(NamedTuple):
     precision: str
     pairs: list[Pair]
     truths: list[Truth]
     rows: list[Row]
     intersect: Verdicts
+    penetration: Depths
 
     @property
     def full(self) -> Row:
@@ -68,13 +85,20 @@ class Report(NamedTuple):
 
     @property
     def violations(self) -> int:
-        return sum(row.violations for row in self.rows) + self.intersect.violations
+        return sum(row.violations for row in self.rows) + self.intersect.violations + self.penetration.violations
+
+    @property
+    def asked(self) -> int:
+        """Answers in all."""
+        return len(self.pairs) * (len(self.rows) + 2)
 
 
 def summarise(precision: str, pairs: list[Pair], truths: list[Truth], answers: list[Answers]) -> Report:
-    rows = [_row(level, truths, UNIT[precision]) for level in answers if level.level.kind != "intersect"]
-    verdicts = next(_verdicts(level, truths) for level in answers if level.level.kind == "intersect")
-    return Report(precision, pairs, truths, rows, verdicts)
+    by_query = {level.level.kind: level for level in answers if level.level.kind in QUERIES}
+    rows = [_row(level, truths, UNIT[precision]) for level in answers if level.level.kind not in QUERIES]
+    verdicts = _verdicts(by_query["intersect"], truths)
+    depths = _depths(by_query["penetration"], truths, UNIT[precision])
+    return Report(precision, pairs, truths, rows, verdicts, depths)
 
 
 def _row(level: Answers, truths: list[Truth], u: float) -> Row:
@@ -99,6 +123,23 @@ def _verdicts(level: Answers, truths: list[Truth]) -> Verdicts:
     wrong = sum(truth.proven and _contradicts(answer, truth) for answer, truth in zip(level.answers, truths))
     touching = len(apart) - sum(apart) - sum(meeting)
     return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(meeting), touching, wrong)
+
+
+def _depths(level: Answers, truths: list[Truth], u: float) -> Depths:
+    solved = list(zip(level.answers, truths))
+    signed = [(answer, _signed(truth)) for answer, truth in solved if truth.separation]
+    errors = [_error(answer, truth, u) for answer, truth in signed]
+    widths = [_in_units(answer.upper - answer.lower, truth, u) for answer, truth in signed]
+    wrong = sum(not _holds(*pair) for pair in signed)
+    wrong += sum(answer.lower > truth.upper for answer, truth in solved if not truth.separation)
+    most = max(errors, default=0.0), max(widths, default=0.0)
+    return Depths(level.ns, _mean_supports(level), *most, len(signed), wrong)
+
+
+def _signed(truth: Truth) -> Truth:
+    """The truth about the signed separation, where that about the distance stood."""
+    lower, upper = truth.separation or (truth.lower, truth.upper)
+    return truth._replace(lower=lower, upper=upper)
 
 
 def _contradicts(answer: Answer, truth: Truth) -> bool:
@@ -140,7 +181,8 @@ COLUMNS = [
 
 
 def write(path: Path, reports: list[Report]) -> None:
-    """The rows as CSV. Errors and widths are in u * scale; intersect has neither."""
+    """The rows as CSV. Errors and widths are in u * scale; intersect has neither, and of penetration only the largest
+    are told."""
     with path.open("w", newline="", encoding="utf-8") as file:
         out = csv.writer(file)
         out.writerow(COLUMNS)
@@ -149,6 +191,11 @@ def write(path: Path, reports: list[Report]) -> None:
                 out.writerow(_cells(report, "distance", row.level.label, row.ns, row.supports, row.violations, row))
             v = report.intersect
             out.writerow(_cells(report, "intersect", "first proof", v.ns, v.supports, v.violations, None))
+            d = report.penetration
+            cells = _cells(report, "penetration", "full", d.ns, d.supports, d.violations, None)
+            for name, number in (("error_max", d.error), ("width_max", d.width)):
+                cells[COLUMNS.index(name)] = f"{number:.6g}"
+            out.writerow(cells)
 
 
 def _cells(

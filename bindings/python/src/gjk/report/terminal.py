@@ -58,6 +58,7 @@ def show(scene: Scene, reports: list[Report], files: list[Path]) -> None:
         console.print()
         console.print(_table(scene, report))
         console.print(_intersect(report), highlight=False)
+        console.print(_penetration(report), highlight=False)
     console.print(Text("tol: the option rel_tol, relative to the distance; tight: that option.", "dim"))
     console.print(Text("Error and promise (bracket width) in u·scale; ns: the mean in the fastest round.", "dim"))
     console.print(_verdict(reports))
@@ -98,9 +99,17 @@ def _intersect(report: Report) -> str:
     )
 
 
+def _penetration(report: Report) -> str:
+    d = report.penetration
+    return (
+        f"Penetration: {d.ns:.0f} ns, {d.supports:.1f} calls; of {d.known} pairs with a known truth "
+        f"error up to {figure(d.error)}, promise up to {figure(d.width)}; {d.violations} broken"
+    )
+
+
 def _verdict(reports: list[Report]) -> Text:
     broken = sum(report.violations for report in reports)
-    asked = sum(len(report.pairs) * (len(report.rows) + 1) for report in reports)
+    asked = sum(report.asked for report in reports)
     if broken:
         return Text(f"{broken} of {asked} answers do not hold the truth.", "bold red")
     return Text(f"All {asked} answers hold the truth.", "bold green")

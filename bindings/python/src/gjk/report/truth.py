@@ -25,6 +25,8 @@ class Truth(NamedTuple):
     """Whether the relation is; round sets may come closer to touching than can be told."""
     scale: float
     """The largest |coordinate| of the two bodies, seen from the midpoint of a closest pair."""
+    separation: tuple[Fraction, Fraction] | None = None
+    """The signed separation lies between; None: not known, of round sets that overlap."""
 
 
 def find(pairs: list[Pair], dim: int, jobs: int | None, step: Callable[[int, int], None]) -> list[Truth]:
@@ -47,4 +49,4 @@ def _gather(found: Any, total: int, step: Callable[[int, int], None]) -> list[Tr
 
 def _truth(task: tuple[dict[str, Any], dict[str, Any], int]) -> Truth:
     found = exact.distance(*task)
-    return Truth(found.lower, found.upper, found.relation, found.proven, float(found.scale))
+    return Truth(found.lower, found.upper, found.relation, found.proven, float(found.scale), found.separation)

@@ -1,0 +1,471 @@
+/* SPDX-License-Identifier: MIT */
+/* How deep: the least height of the difference A - B over all directions. A polytope grows within it, each time beyond
+ * its lowest facet. Of the signed separation this proves
+ *     from below: minus the height of the farthest corner along any direction at all,
+ *     from above: minus the least height of a facet, once the surface is known to surround the origin: then any way out
+ * passes through a facet, and a facet lies, along its n, no lower than its lowest corner.
+ * So no facet needs a good normal or any area. */
+#ifndef GJK_CORE_PENETRATION_H
+#define GJK_CORE_PENETRATION_H
+
+#include "distance.h"
+#include "polytope.h"
+#include "tight.h"
+
+typedef struct depth {
+    search *q;
+    const shape *a, *b;
+    const goal *g;
+    polytope p;
+    const facet *floor; /* the lowest facet, at the end */
+} depth;
+
+static tip tip_of(const search *q, const vertex *c, int known)
+{
+    tip t = {c->w, axis(0, 0), c->x, c->y};
+    if (known) t.low = lost_of(q, c);
+    return t;
+}
+
+/* The corner farthest along n. 0: a support's answer was none. */
+static int ask_along(depth *d, vec n, tip *t)
+{
+    vertex c;
+    real reach[2];
+    vec v = mul(n, -1);
+    d->q->steps++;
+    if (!ask(&d->q->d, v, &c, reach)) return 0;
+    raise(d->q, v, c.w);
+    *t = tip_of(d->q, &c, d->g->exact);
+    return 1;
+}
+
+/* ---- heights without rounding, of known corners ---- */
+
+/* n as the body sees it. */
+static void turned(const body *k, vec n, twin g[DIM])
+{
+    for (int j = 0; j < DIM; j++) {
+        g[j] = (twin){k->posed ? 0 : n.c[j], 0};
+        for (int i = 0; i < DIM && k->posed; i++) gather(&g[j], product_of(k->m[DIM * i + j], n.c[i]));
+    }
+}
+
+/* Of the body's corners the one farthest along n, and its height from the body's own origin. Rounded heights tell which
+ * it can be. */
+static twin farthest_corner(const body *k, const shape *s, vec n, vec *x)
+{
+    twin g[DIM], most = {-REAL_MAX, 0};
+    vec rough;
+    real top = -REAL_MAX, far = 0;
+    size_t count = count_corners(s);
+    turned(k, n, g);
+    for (int j = 0; j < DIM; j++) rough.c[j] = g[j].high + g[j].low;
+    for (size_t i = 0; i < count; i++) {
+        vec c = mul(nth_corner(s, i), k->grain);
+        top = larger(dot(c, rough), top);
+        far = larger(peak(c), far);
+    }
+    top -= 16 * UNIT * far * spread(rough);
+    for (size_t i = 0; i < count; i++) {
+        vec c = mul(nth_corner(s, i), k->grain);
+        if (dot(c, rough) < top) continue;
+        twin h = {0, 0};
+        for (int j = 0; j < DIM; j++) {
+            gather(&h, product_of(g[j].high, c.c[j]));
+            h.low += g[j].low * c.c[j];
+        }
+        h = sum_of(h.high, h.low);
+        if (!(h.high > most.high || (h.high == most.high && h.low > most.low))) continue;
+        most = h;
+        *x = nth_corner(s, i);
+    }
+    return most;
+}
+
+/* By how much |n| is above 1, for n that is unit to rounding. */
+static real excess(vec n)
+{
+    twin square = {-1, 0};
+    for (int i = 0; i < DIM; i++) gather(&square, product_of(n.c[i], n.c[i]));
+    return (square.high + square.low) / 2;
+}
+
+/* The height of A - B along n, and the corner there. */
+static twin fine_height(const depth *d, vec n, tip *t)
+{
+    const difference *f = &d->q->d;
+    vertex c;
+    twin h = farthest_corner(&f->a, d->a, n, &c.x);
+    gather(&h, farthest_corner(&f->b, d->b, mul(n, -1), &c.y));
+    for (int i = 0; i < DIM; i++) {
+        gather(&h, product_of(-n.c[i], f->c.c[i]));
+        h.low -= n.c[i] * f->c_low.c[i];
+    }
+    c.w = corner_of(f, c.x, c.y);
+    *t = tip_of(d->q, &c, 1);
+    return sum_of(h.high, h.low - h.high * excess(n));
+}
+
+/* The least height of the facet's corners. */
+static twin fine_floor(const polytope *p, const facet *f)
+{
+    twin least = {REAL_MAX, 0};
+    for (int k = 0; k < DIM; k++) {
+        const tip *t = &p->tip[f->v[k]];
+        twin h = {0, dot(f->n, t->low)};
+        for (int i = 0; i < DIM; i++) gather(&h, product_of(f->n.c[i], t->w.c[i]));
+        h = sum_of(h.high, h.low);
+        if (h.high < least.high || (h.high == least.high && h.low < least.low)) least = h;
+    }
+    return sum_of(least.high, least.low - least.high * excess(f->n));
+}
+
+/* From below, along a unit n, without the rounding of corners. */
+static void bound_along(depth *d, vec n)
+{
+    tip t;
+    twin h = fine_height(d, n, &t);
+    real lower = -h.high - 2 * UNIT * size(h.high) - h.low - 256 * UNIT * UNIT;
+    if (!(lower > d->q->lower)) return;
+    d->q->lower = lower;
+    d->q->normal = n;
+}
+
+/* ---- the first surface ---- */
+
+/* What of n is square to all of the tips so far. */
+static vec square_to_tips(const polytope *p, vec n)
+{
+    vec e[DIM];
+    for (int k = 1; k < p->tips; k++) {
+        e[k] = reach_over(&p->tip[0], &p->tip[k]);
+        for (int j = 1; j < k; j++) e[k] = sub(e[k], mul(e[j], dot(e[k], e[j])));
+        e[k] = unit_of(e[k], e[k]);
+    }
+    for (int twice = 0; twice < 2; twice++)
+        for (int k = 1; k < p->tips; k++) n = sub(n, mul(e[k], dot(n, e[k])));
+    return n;
+}
+
+/* A unit vector square to the tips so far, near that axis; to all the digits where there is but one. */
+static vec off_tips(const polytope *p, int i)
+{
+    vec n = square_to_tips(p, axis(i, 1));
+    if (p->tips < DIM) return length(n) > (real)0.5 ? unit_of(n, n) : axis(0, 0); /* another axis is more square */
+#if DIM == 2
+    n = reach_over(&p->tip[0], &p->tip[1]);
+    n = (vec){{n.c[1], -n.c[0]}};
+#else
+    n = fine_cross(&p->tip[0], &p->tip[1], &p->tip[2]);
+#endif
+    return i == 0 ? unit_of(n, n) : axis(0, 0);
+}
+
+/* How far t lies beyond all tips along n; 0 where that is not certain. */
+static real rise_over_tips(const polytope *p, vec n, const tip *t)
+{
+    real least = REAL_MAX;
+    for (int k = 0; k < p->tips; k++) least = smaller(rise(&p->tip[k], t, n), least);
+    return larger(least, 0);
+}
+
+/* Adds the corner farthest off the tips so far; the first that is far enough will do. STILL: there is none beyond
+ * rounding, the difference is flat. */
+static enum end spread_out(depth *d)
+{
+    polytope *p = &d->p;
+    tip best = p->tip[0];
+    real most = 0;
+    for (int i = 0; i < 2 * DIM && !(most > (real)0.125); i++) {
+        tip t;
+        vec n = mul(off_tips(p, i / 2), i & 1 ? (real)-1 : (real)1);
+        if (!(length(n) > 0)) continue;
+        if (d->q->steps >= d->g->max_steps) return OPEN;
+        if (!ask_along(d, n, &t)) return FAULT;
+        if (d->g->exact) bound_along(d, n);
+        real off = rise_over_tips(p, n, &t);
+        if (!(off > most)) continue;
+        most = off;
+        best = t;
+    }
+    if (!(most > 0)) return STILL;
+    p->tip[p->tips++] = best;
+    return OPEN;
+}
+
+/* The simplex that the search left, without the corners that hardly stand off the others. */
+static void take_simplex(depth *d)
+{
+    polytope *p = &d->p;
+    for (int i = 0; i < d->q->s.n; i++) {
+        tip t = tip_of(d->q, corner(&d->q->s, i), d->g->exact);
+        if (i > 0 && !(length(square_to_tips(p, reach_over(&p->tip[0], &t))) > (real)0x1p-10)) continue;
+        p->tip[p->tips++] = t;
+    }
+}
+
+/* STILL: the difference is flat, there is no surface. */
+static enum end first_surface(depth *d)
+{
+    polytope *p = &d->p;
+    take_simplex(d);
+    while (p->tips <= DIM) {
+        int before = p->tips;
+        enum end end = spread_out(d);
+        if (p->tips == before) return end;
+    }
+    put_simplex(p, turn_of(p));
+    return OPEN;
+}
+
+/* ---- growth ---- */
+
+/* Whether anything lies beyond the facet: its corner is taken in, or the facet is done. OPEN: there is no room. */
+static enum end look_beyond(depth *d, facet *f)
+{
+    tip t;
+    if (!ask_along(d, f->n, &t)) return FAULT;
+    if (!sees(&d->p, f, &t)) {
+        if (d->g->exact) fine_height(d, f->n, &t);
+        if (!d->g->exact || !sees(&d->p, f, &t)) {
+            f->done = 1;
+            return STILL;
+        }
+    }
+    return grow(&d->p, f, &t) ? STILL : OPEN;
+}
+
+/* The bracket is as narrow as asked. */
+static int close_enough(const depth *d, const facet *f)
+{
+    const goal *g = d->g;
+    if (!(g->abs_tol > 0) && !(g->rel_tol > 0)) return 0;
+    real lower = d->q->lower, upper = -f->height + d->q->d.doubt;
+    real asked = g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
+    return upper - lower <= asked;
+}
+
+/* STILL: nothing lies beyond the lowest facet. CLOSE: as tight as asked. OPEN: steps or workspace are used up. */
+static enum end deepen(depth *d)
+{
+    for (;;) {
+        facet *f = lowest(&d->p);
+        d->floor = f;
+        if (f->done) return STILL;
+        if (close_enough(d, f)) return CLOSE;
+        if (d->q->steps >= d->g->max_steps) return OPEN;
+        enum end end = look_beyond(d, f);
+        if (end != STILL) {
+            d->floor = lowest(&d->p);
+            return end;
+        }
+    }
+}
+
+/* ---- the proof ---- */
+
+/* On which side of the facet's plane the origin is: 1, the inner; 0 where it is in it, or numbers are lost. */
+static int inner_side(const depth *d, const facet *f)
+{
+    dyadics w[DIM];
+    for (int i = 0; i < DIM; i++) {
+        dyadics a = placed(d->a, d->p.tip[f->v[i]].x), b = placed(d->b, d->p.tip[f->v[i]].y);
+        w[i] = difference_of(&a, &b);
+    }
+#if DIM == 2
+    dyadic whole = minor(&w[0].c[0], &w[1].c[1], &w[0].c[1], &w[1].c[0]);
+#else
+    dyadics n = outer(&w[0], &w[1]);
+    dyadic whole = inner(&n, &w[2]);
+#endif
+    return whole.lost ? -1 : whole.sign;
+}
+
+/* A lower bound of the heights of the facet's points along its n, in the frame, without the corners' own rounding. */
+static real floor_of(const depth *d, const facet *f)
+{
+    if (!d->g->exact) return f->height - 8 * UNIT * (size(f->height) + 2) - d->q->d.doubt;
+    twin h = fine_floor(&d->p, f);
+    return h.high - 2 * UNIT * size(h.high) + h.low - 256 * UNIT * UNIT;
+}
+
+/* Whether the surface goes around the origin. All facets are off it, on their outer side; then how often the surface
+ * goes around is the sum of the solid angles under which the origin sees them, and whole. A facet whose side is certain
+ * counts for more than 0. One too narrow to tell counts for little, either way. */
+static int surrounds(const depth *d)
+{
+    const polytope *p = &d->p;
+    real certain = 0, doubtful = 0;
+    int proven = 0; /* to be on the inner side, without rounding */
+    for (int k = 0; k < p->facets; k++) {
+        const facet *f = &p->facet[k];
+        real far = 0, long_edge = 0;
+        for (int i = 0; i < DIM; i++) {
+            vec e = reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]]);
+            far = larger(length(p->tip[f->v[i]].w), far);
+            long_edge = larger(length(e), long_edge);
+        }
+        int thin;
+        real area = length(outward(p, f, &thin)), square = DIM == 2 ? long_edge : long_edge * long_edge;
+        if (area * f->height > 16 * UNIT * square * far) {
+            certain += area * f->height / (DIM == 2 ? far * far : far * far * far) / 4;
+            continue;
+        }
+        int side = d->g->exact ? inner_side(d, f) : -1;
+        proven += side > 0;
+        if (side < 0) doubtful += (area + 16 * UNIT * square) / (DIM == 2 ? f->height : f->height * f->height);
+    }
+    return certain > 2 * doubtful || (proven > 0 && doubtful == 0);
+}
+
+/* Bounds of what is known of the separation of the cores, to rounding; with known corners to next to none. */
+static void bound(depth *d, real *upper)
+{
+    search *q = d->q;
+    real least = REAL_MAX;
+    for (int k = 0; k < d->p.facets; k++) {
+        const facet *f = &d->p.facet[k];
+        if (f->height - 64 * UNIT - q->d.doubt < least) least = smaller(floor_of(d, f), least);
+    }
+    if (d->p.facets > 0 && least > 0 && surrounds(d)) *upper = smaller(*upper, -least);
+    if (d->g->exact) bound_along(d, d->floor ? d->floor->n : q->normal);
+}
+
+/* Bounds of cores that are apart and known by their corners, to next to no rounding: for shapes whose radii overlap.
+ * From above: the one pair of points that the weights single out. Each is the first corner and shares of the ways from
+ * there: off the set by no more than what rounds on these. */
+static void bound_apart(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1],
+                        real *upper)
+{
+    depth d = {.q = q, .a = a, .b = b, .g = g};
+    vec low, high = single_out(q, weight, &low);
+    real off = 0;
+    for (int i = 1; i < q->s.n; i++) {
+        vec x = sub(corner(&q->s, i)->x, corner(&q->s, 0)->x), y = sub(corner(&q->s, i)->y, corner(&q->s, 0)->y);
+        off += weight[i] * (spread(place(&q->d.a, x)) + spread(place(&q->d.b, y)));
+    }
+    *upper = smaller(*upper, length(add(high, low)) * (1 + 8 * UNIT) + 8 * UNIT * off);
+    bound_along(&d, q->normal);
+}
+
+/* The normal along the closest pair of cores that are apart and known by their corners: as good as the pair is, where
+ * the direction of the best bound is only as good as that bound. Left as it is where it proves less. */
+static void point_along_pair(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1])
+{
+    depth d = {.q = q, .a = a, .b = b, .g = g};
+    vec low, high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low)), normal = q->normal;
+    real lower = q->lower;
+    if (!(length(v) > 0)) return;
+    q->lower = -REAL_MAX;
+    bound_along(&d, mul(v, -1 / length(v)));
+    if (!(q->lower >= lower - 8 * UNIT * lower)) q->normal = normal;
+    q->lower = lower;
+}
+
+/* In the lowest facet's plane, as far as rounding can tell. */
+static int is_level(const depth *d, const tip *t)
+{
+    return size(height_of(t, d->floor->n) - d->floor->height) <= 32 * UNIT;
+}
+
+/* Of the body's corners that are as far along n as any, to rounding, the one farthest along aside. */
+static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
+{
+    vec best = axis(0, 0), up = k->posed ? pull(k->m, n) : n, out = k->posed ? pull(k->m, aside) : aside;
+    real top = -REAL_MAX, most = -REAL_MAX;
+    size_t count = count_corners(s);
+    for (size_t i = 0; i < count; i++) top = larger(dot(mul(nth_corner(s, i), k->grain), up), top);
+    for (size_t i = 0; i < count; i++) {
+        vec c = mul(nth_corner(s, i), k->grain);
+        if (!(dot(c, up) >= top - 16 * UNIT) || !(dot(c, out) > most)) continue;
+        most = dot(c, out);
+        best = nth_corner(s, i);
+    }
+    return best;
+}
+
+/* Of what is level the corner least along v: of all known corners, else of the tips. */
+static tip level_tip(const depth *d, vec v)
+{
+    tip best = d->p.tip[d->floor->v[0]];
+    if (d->g->exact) {
+        vertex c;
+        c.x = corner_aside(&d->q->d.a, d->a, d->floor->n, mul(v, -1));
+        c.y = corner_aside(&d->q->d.b, d->b, mul(d->floor->n, -1), v);
+        c.w = corner_of(&d->q->d, c.x, c.y);
+        return tip_of(d->q, &c, 1);
+    }
+    for (int k = 0; k < d->p.tips; k++)
+        if (is_level(d, &d->p.tip[k]) && dot(v, d->p.tip[k].w) < dot(v, best.w)) best = d->p.tip[k];
+    return best;
+}
+
+static void take_tip(simplex *s, const tip *t, vec foot)
+{
+    vertex *c = spare(s);
+    c->w = sub(t->w, foot);
+    c->x = t->x;
+    c->y = t->y;
+    s->n++;
+}
+
+/* The lowest point of the surface as a blend of tips: where the lowest facet's plane is nearest the origin. A face of
+ * more than DIM corners is several facets, so that point is sought among all that is level, as the origin is in a
+ * search.
+ */
+static void hand_over(const depth *d, real weight[DIM + 1])
+{
+    search *q = d->q;
+    vec foot = mul(d->floor->n, d->floor->height), v;
+    simplex *s = &q->s;
+    clear(s);
+    take_tip(s, &d->p.tip[d->floor->v[0]], foot);
+    v = point(s, 0);
+    for (int i = 0; i < USUAL_TIPS && dot(v, v) > UNIT * UNIT / 4; i++) {
+        tip t = level_tip(d, v);
+        simplex before = *s;
+        if (!is_level(d, &t) || !(dot(v, sub(t.w, foot)) < dot(v, v))) break;
+        take_tip(s, &t, foot);
+        vec better = nearest_of_all(s, 0, s->n <= DIM, 0);
+        if (!(dot(better, better) < dot(v, v))) {
+            *s = before;
+            break;
+        }
+        v = better;
+    }
+    weigh(s, weight);
+}
+
+/* The normal goes with the lowest facet, where that says as much as any direction asked: of several that are equal, one
+ * for normal and points alike. */
+static void point_out(depth *d)
+{
+    search *q = d->q;
+    real best = q->lower;
+    if (!d->g->exact) {
+        q->normal = d->floor->n;
+        return;
+    }
+    vec normal = q->normal;
+    q->lower = -REAL_MAX;
+    bound_along(d, d->floor->n);
+    if (!(q->lower >= best - 16 * UNIT)) q->normal = normal;
+    q->lower = larger(q->lower, best);
+}
+
+/* The cores meet, or nearly so: how deep. */
+static APART enum end fathom(search *q, const shape *a, const shape *b, const goal *g, polytope p, real *upper,
+                             real weight[DIM + 1])
+{
+    depth d = {.q = q, .a = a, .b = b, .g = g, .p = p};
+    enum end end = first_surface(&d);
+    if (end == OPEN && d.p.facets > 0) end = deepen(&d);
+    if (end == FAULT) return end;
+    bound(&d, upper);
+    if (d.floor && d.floor->done) point_out(&d);
+    if (d.floor) hand_over(&d, weight);
+    return end;
+}
+
+#endif

@@ -1,0 +1,1022 @@
+/* SPDX-License-Identifier: MIT */
+/* How deep: families of hard pairs against the exact truth, closed forms, workspaces, paths through contact, and turned
+ * boxes against the separating axes.
+ *
+ *   depths [PAIRS] [--seed SEED] [--boxes BOXES]     PAIRS of each family, of the costly ones a quarter; default
+ *                                                    GJK_STRESS_PAIRS or 200. BOXES, default 1500: long runs take
+ * 150000
+ *
+ * Of pairs that are apart each third is asked about again, moved into each other: so every family overlaps.
+ *
+ * Prints for each family how many pairs overlap, the largest error and the widest bracket in u * scale, of bodies with
+ * corners and no radius apart from all others, and the support calls of each body. */
+#include "faults.h"
+#include "pairs.h"
+#include "settle.h"
+
+/* Of bodies with corners that meet, in u * scale. */
+#define VALUE_ERROR 4.0
+#define WIDTH 16.0
+#define WIDTH_APART 200.0 /* of cores that are apart, in u * span */
+#define NORMAL_ERROR 16.0 /* of the separation along the normal: in u * span of all bodies, in u * scale of these */
+#define POINT_ERROR 16.0
+#define TOUCH_ERROR (VALUE_ERROR + NORMAL_ERROR + 4) /* the move is rounded too */
+#define UNIT_ERROR 8.0                               /* in u */
+
+/* ---- figures ---- */
+
+enum law {
+    ANSWERS,
+    HOLDS,
+    ORDERED,
+    NEAR,
+    NARROW,
+    AS_APART,
+    IS_UNIT,
+    LEADS_DOWN,
+    LEADS_OUT,
+    TOUCHES,
+    REACHES,
+    SPANS,
+    IS_IN,
+    IS_DEEP
+};
+#define LAWS (IS_DEEP + 1)
+
+static const char *const law_name[LAWS] = {
+    "an error for a good pair",
+    "the bracket misses the truth, in u * scale",
+    "the value is outside its bracket, or the status another than returned",
+    "the value is further off than it may be, in u * scale",
+    "the bracket is wider than it may be, in u * scale",
+    "apart, but not what distance says",
+    "the normal is not unit, in u",
+    "the normal does not realise lower, in u * span",
+    "the separation along the normal is not the truth, in u * scale",
+    "moved out by depth * normal, they do not touch, in u * scale",
+    "moved together by distance * normal, they do not touch, in u * scale",
+    "the points are not depth * normal apart, in u * scale",
+    "a point is not in its body, in u * scale",
+    "a point is not the deepest along the normal, in u * scale",
+};
+
+typedef struct figures {
+    enum family family;
+    long pairs, apart, deep, sharp, unsure, limits;
+    long astray; /* points of a face that were found beside the place nearest the origin */
+    long asked[LAWS];
+    faults faults;
+    double max_error, max_width, max_round_error, max_round_width, max_unlimited, sum_calls, max_calls;
+} figures;
+
+static double mean(double sum, long count) { return count ? sum / (double)count : 0; }
+
+static void print_figures(const figures *s)
+{
+    printf("%-6s %-10s %5ld pairs %5ld overlap | corners %5ld error %8.3g width %8.3g | others error %8.3g width "
+           "%8.3g, %8.3g but for limits | "
+           "calls %5.2f max %5.1f | %ld limits %ld unsure %ld faults\n",
+           VARIANT, family_name[s->family], s->pairs, s->deep, s->sharp, s->max_error, s->max_width, s->max_round_error,
+           s->max_round_width, s->max_unlimited, mean(s->sum_calls, s->deep), s->max_calls, s->limits, s->unsure,
+           s->faults.count);
+}
+
+/* ---- one pair ---- */
+
+static figures figures_of[FAMILIES];
+static long pairs_per_family = 200, boxes = 1500;
+static uint64_t seed = 1;
+static exact best;
+static truth nearly, after, spot;
+static int sure;  /* whether the truth is exact, or good to 28 digits */
+static int sharp; /* whether both have known corners and no radius */
+static int meets; /* whether they have a point in common */
+static pair drawn, moved;
+static const pair *p; /* that is being asked about */
+static long at;       /* its number */
+
+#define LEAST ((double)REAL_MIN * (double)REAL_EPSILON) /* the least number above 0 */
+
+/* What lengths are measured in; never 0. */
+static double scale(void) { return fmax((double)nearly.scale, LEAST); }
+static double span(void) { return fmax(span_of_pair(&p->a, &p->b), scale()); }
+
+/* The largest coordinate of a position: points in the frame, and what is moved in it, round by this. */
+static double far_out(void)
+{
+    double most = 0;
+    for (int i = 0; i < DIM; i++) {
+        most = fmax(most, fmax(fabs((double)p->a.pose.p[i]), fabs((double)p->b.pose.p[i])));
+    }
+    return most;
+}
+
+/* In u * unit; where that is below the least number, in least numbers. */
+static double in_u(quad x, double unit) { return (double)(x / (quad)unit) / (U + LEAST / unit); }
+
+/* Whether u * scale is a normal number. Below, the brackets must hold, but no limits are set. */
+static int is_normal(void) { return scale() * U >= (double)REAL_MIN; }
+
+static double width_of(const V(result) * r) { return (double)((quad)r->upper - (quad)r->lower); }
+
+static void hold(figures *s, enum law law, const V(result) * r, int holds, double by)
+{
+    s->asked[law]++;
+    if (holds || !note_fault(&s->faults, law_name[law], by)) {
+        return;
+    }
+    print_error(
+        "%s penetration, pair %ld of %s: %s (%.3g)\n  status %d value %.17g lower %.17g upper %.17g; truth %.17g "
+        "+ %.3g, scale %.3g, normal ",
+        VARIANT, at, family_name[s->family], law_name[law], by, r->status, (double)r->value, (double)r->lower,
+        (double)r->upper, (double)nearly.lower, (double)(nearly.upper - nearly.lower), scale());
+    print_numbers(stderr, r->normal, DIM);
+    fprintf(stderr, "\n  ");
+    print_case(stderr, "intersect", &p->a, &p->b);
+}
+
+/* How far x is off the truth. */
+static quad off_truth(const truth *t, quad x) { return x > t->upper ? x - t->upper : x < t->lower ? t->lower - x : 0; }
+
+/* By how much the bracket misses the truth. */
+static quad missed(const V(result) * r)
+{
+    quad above = (quad)r->lower - nearly.upper, below_it = nearly.lower - (quad)r->upper;
+    return positive(above > below_it ? above : below_it);
+}
+
+static void find_truth_of_pair(void)
+{
+    find_truth(&nearly, &p->a, &p->b, 1);
+    sure = settle(&nearly, &best, &p->a, &p->b) || nearly.certified;
+    sharp = has_corners(&p->a) && has_corners(&p->b) && !(p->a.shape.radius > 0) && !(p->b.shape.radius > 0);
+    meets = sharp && sure ? !nearly.apart : nearly.upper <= 0;
+}
+
+/* ---- the laws of the numbers ---- */
+
+static void check_bracket(figures *s, const V(result) * r, int status)
+{
+    hold(s, ORDERED, r, status == r->status && r->lower <= r->value && r->value <= r->upper, 0);
+    hold(s, HOLDS, r, !(missed(r) > 0), in_u(missed(r), scale()));
+}
+
+/* Bodies that meet. */
+static void check_depth(figures *s, const V(result) * r)
+{
+    double error = in_u(off_truth(&nearly, (quad)r->value), scale()), width = in_u((quad)width_of(r), scale());
+    int narrow = sharp && sure;
+    s->deep++;
+    s->sharp += narrow;
+    s->unsure += !sure;
+    s->limits += r->status == GJK_LIMIT;
+    s->sum_calls += r->supports / 2.0;
+    s->max_calls = fmax(s->max_calls, r->supports / 2.0);
+    if (!is_normal()) {
+        return;
+    }
+    *(narrow ? &s->max_error : &s->max_round_error) = fmax(narrow ? s->max_error : s->max_round_error, error);
+    *(narrow ? &s->max_width : &s->max_round_width) = fmax(narrow ? s->max_width : s->max_round_width, width);
+    if (!narrow && r->status != GJK_LIMIT) {
+        s->max_unlimited = fmax(s->max_unlimited, width);
+    }
+    if (narrow) {
+        hold(s, NEAR, r, error <= VALUE_ERROR, error);
+        hold(s, NARROW, r, width <= WIDTH, width);
+    }
+}
+
+/* Bodies known to be apart, as soon as distance sees it: of corners, always. */
+static void check_apart(figures *s, const V(result) * r)
+{
+    V(result) d;
+    memset(&d, 0, sizeof d);
+    d.status = V(distance)(&p->a.shape, &p->b.shape, NULL, &d);
+    s->apart++;
+    if (d.status < 0 || (!sharp && !(d.lower > 0)) || nearly.lower < (quad)LEAST) {
+        return;
+    }
+    hold(s, AS_APART, r, d.value == r->value && d.lower == r->lower && d.upper == r->upper,
+         in_u(quad_abs((quad)d.value - (quad)r->value), scale()));
+}
+
+/* ---- the laws of the normal ---- */
+
+/* Of the bodies along n, which is nearly unit. */
+static quad separation_along(const real *normal)
+{
+    quad n[DIM], back[DIM], x[DIM], y[DIM], along = 0;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)normal[i];
+        back[i] = -n[i];
+    }
+    farthest_of_body(&p->a, nearly.a.origin, 1, n, x);
+    farthest_of_body(&p->b, nearly.a.origin, 1, back, y);
+    for (int i = 0; i < DIM; i++) {
+        along += n[i] * (y[i] - x[i]);
+    }
+    return along / norm(n);
+}
+
+static void check_normal(figures *s, const V(result) * r)
+{
+    quad n[DIM], along;
+    double off;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)r->normal[i];
+    }
+    off = in_u(quad_abs(norm(n) - 1), 1);
+    hold(s, IS_UNIT, r, off <= UNIT_ERROR, off);
+    if (!(off <= UNIT_ERROR) || !is_normal()) {
+        return;
+    }
+    along = separation_along(r->normal);
+    off = in_u((quad)r->lower - along, span());
+    hold(s, LEADS_DOWN, r, off <= NORMAL_ERROR, off);
+    if (sharp && sure && meets) {
+        off = in_u(nearly.lower - along, scale());
+        hold(s, LEADS_OUT, r, off <= NORMAL_ERROR, off);
+    }
+}
+
+/* Of bodies without known corners the bracket says how well the value is known, and spans what rounds. */
+static double allowed(const V(result) * r, double errors)
+{
+    double rounding = sharp && sure ? scale() : span();
+    return errors * U * (rounding + far_out()) + (sharp && sure ? 0 : width_of(r));
+}
+
+/* On a round body the way to a point, or the point, is as far off as the root of the bracket's width says. */
+static double slant(const V(result) * r) { return sharp && sure ? 0 : 8 * sqrt(width_of(r) * span()); }
+
+static void check_touch(figures *s, const V(result) * r)
+{
+    quad off;
+    double most;
+    moved = *p;
+    for (int i = 0; i < DIM; i++) {
+        moved.b.pose.p[i] = (real)((quad)p->b.pose.p[i] - (quad)r->value * (quad)r->normal[i]);
+    }
+    real radius[2] = {p->a.shape.radius, p->b.shape.radius};
+    bind_pair(&moved);
+    moved.a.shape.radius = radius[0];
+    moved.b.shape.radius = radius[1];
+    find_truth(&after, &moved.a, &moved.b, 1);
+    settle(&after, &best, &moved.a, &moved.b);
+    off = off_truth(&after, 0);
+    most = allowed(r, TOUCH_ERROR) + (meets ? 0 : slant(r));
+    hold(s, meets ? TOUCHES : REACHES, r, off <= (quad)most, in_u(off, scale()));
+}
+
+/* ---- the laws of the points, of bodies that meet ---- */
+
+static quad stands_off(const body *b, const real *point)
+{
+    static body dot;
+    start_body(&dot, POINTS);
+    dot.count = 1;
+    memcpy(dot.v[0], point, sizeof dot.v[0]);
+    bind(&dot);
+    find_truth(&spot, &dot, b, 0);
+    settle(&spot, &best, &dot, b);
+    return spot.lower;
+}
+
+/* How far the body reaches beyond its point along sign n. */
+static quad beyond_point(const body *b, const real *point, const real *normal, int sign)
+{
+    quad n[DIM], x[DIM], along = 0;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)normal[i] * (quad)sign;
+    }
+    farthest_of_body(b, nearly.a.origin, 1, n, x);
+    for (int i = 0; i < DIM; i++) {
+        along += n[i] * (x[i] - ((quad)point[i] - nearly.a.origin[i]));
+    }
+    return along;
+}
+
+static void check_points(figures *s, const V(result) * r)
+{
+    quad gap = 0, off[2] = {stands_off(&p->a, r->point_a), stands_off(&p->b, r->point_b)};
+    quad deep[2] = {beyond_point(&p->a, r->point_a, r->normal, 1), beyond_point(&p->b, r->point_b, r->normal, -1)};
+    quad most = (quad)(allowed(r, POINT_ERROR) + slant(r));
+    for (int i = 0; i < DIM; i++) {
+        quad x = quad_abs((quad)r->point_a[i] - (quad)r->point_b[i] + (quad)r->value * (quad)r->normal[i]);
+        gap = x > gap ? x : gap;
+    }
+    for (int k = 0; k < 2; k++) {
+        hold(s, IS_IN, r, off[k] <= (quad)allowed(r, POINT_ERROR), in_u(off[k], scale()));
+    }
+    if (r->status == GJK_LIMIT) {
+        return; /* the lowest facet is not the one whose plane is nearest */
+    }
+    if (sharp && sure && gap > most) {
+        s->astray++;
+    } else {
+        hold(s, SPANS, r, gap <= most, in_u(gap, scale()));
+    }
+    for (int k = 0; k < 2; k++) {
+        hold(s, IS_DEEP, r, deep[k] <= most + (quad)width_of(r), in_u(deep[k], scale()));
+    }
+}
+
+/* ---- families ---- */
+
+static void ask_about_pair(figures *s)
+{
+    V(result) r;
+    int status;
+    p = &drawn;
+    find_truth_of_pair();
+    memset(&r, 0, sizeof r);
+    status = V(penetration)(&p->a.shape, &p->b.shape, NULL, &r);
+    s->pairs++;
+    hold(s, ANSWERS, &r, status >= 0, status);
+    if (status < 0) {
+        return;
+    }
+    check_bracket(s, &r, status);
+    check_normal(s, &r);
+    if (meets) {
+        check_depth(s, &r);
+    } else if (nearly.lower > 0) {
+        check_apart(s, &r);
+    }
+    if (is_normal()) {
+        check_touch(s, &r);
+    }
+    if (is_normal() && meets) {
+        check_points(s, &r);
+    }
+}
+
+/* Moves bodies that are apart into each other, by any part of their size. */
+static void push_in(draws *d)
+{
+    V(result) r;
+    double by = span() * magnitude(d, -4, 0) / 10;
+    memset(&r, 0, sizeof r);
+    r.status = V(distance)(&p->a.shape, &p->b.shape, NULL, &r);
+    for (int i = 0; i < DIM; i++) {
+        drawn.b.pose.p[i] = (real)((double)drawn.b.pose.p[i] - ((double)r.value + by) * (double)r.normal[i]);
+    }
+}
+
+static void one_pair(figures *s)
+{
+    draws d = draws_from(seed, (uint64_t)s->family, (uint64_t)at);
+    draw_pair(&d, s->family, &drawn);
+    ask_about_pair(s);
+    if (!meets && at % 3 == 0 && !is_extreme(s->family)) {
+        push_in(&d);
+        ask_about_pair(s);
+    }
+}
+
+static void family_holds(void **state)
+{
+    figures *s = *state;
+    long pairs = is_costly(s->family) ? (pairs_per_family + 3) / 4 : pairs_per_family;
+    for (at = 0; at < pairs; at++) {
+        one_pair(s);
+    }
+    print_figures(s);
+    print_faults(&s->faults, family_name[s->family]);
+    assert_int_equal(s->faults.count, 0);
+    assert_true(s->astray <= 1 + s->deep / 100);
+}
+
+static void every_law_was_asked(void **state)
+{
+    (void)state;
+    for (int law = 0; law < LAWS; law++) {
+        long asked = 0;
+        for (int f = 0; f < FAMILIES; f++) {
+            asked += figures_of[f].asked[law];
+        }
+        printf("%-6s asked %7ld times whether %s\n", VARIANT, asked, law_name[law]);
+        assert_true(asked > 0);
+    }
+    for (int f = 0; f < FAMILIES && pairs_per_family >= 100; f++) {
+        if (figures_of[f].deep == 0) {
+            fail_msg("no pair of %s overlaps", family_name[f]);
+        }
+    }
+}
+
+/* ---- a pair at a time, for what follows ---- */
+
+static void expect_answer(const char *what, const V(result) * r, int holds)
+{
+    if (!holds) {
+        print_error("%s: status %d value %.17g lower %.17g upper %.17g steps %d, normal ", what, r->status,
+                    (double)r->value, (double)r->lower, (double)r->upper, r->steps);
+        print_numbers(stderr, r->normal, DIM);
+        fprintf(stderr, "; pair %ld\n  ", at);
+        print_case(stderr, "intersect", &p->a, &p->b);
+        fail();
+    }
+}
+
+static void ask(const V(options) * o, V(result) * r)
+{
+    memset(r, 0, sizeof *r);
+    r->status = V(penetration)(&p->a.shape, &p->b.shape, o, r);
+    expect_answer("an error for a good pair", r, r->status >= 0);
+    expect_answer("the value is outside its bracket", r, r->lower <= r->value && r->value <= r->upper);
+}
+
+/* The truth of it known in 113 bits. */
+static void ask_for_truth(const V(options) * o, V(result) * r)
+{
+    ask(o, r);
+    expect_answer("the bracket misses the truth", r, !(missed(r) > 0));
+}
+
+static int is_same(const V(result) * x, const V(result) * y) { return memcmp(x, y, sizeof *x) == 0; }
+
+/* ---- workspaces ---- */
+
+#define GUARD 64
+#define MOST_CORNERS 300
+#define PAIRS_HERE 20 /* of each family, where each is asked about many times */
+
+static union {
+    real aligned;
+    unsigned char bytes[1 << 20];
+} room;
+
+/* In a workspace of so many bytes, amid others that stay as they are. */
+static void ask_within(size_t bytes, int fill, V(result) * r)
+{
+    V(options) o = default_options();
+    assert_true(bytes + 2 * GUARD <= sizeof room);
+    memset(room.bytes, 0xa5, sizeof room);
+    memset(room.bytes + GUARD, fill, bytes);
+    o.workspace = room.bytes + GUARD;
+    o.workspace_bytes = (uint32_t)bytes;
+    ask_for_truth(&o, r);
+    for (size_t k = 0; k < GUARD; k++) {
+        expect_answer("wrote before the workspace", r, room.bytes[k] == 0xa5);
+        expect_answer("wrote behind the workspace", r, room.bytes[GUARD + bytes + k] == 0xa5);
+    }
+}
+
+static void draw_here(int family)
+{
+    draws d = draws_from(seed + 1, (uint64_t)family, (uint64_t)at);
+    draw_pair(&d, (enum family)family, &drawn);
+    p = &drawn;
+    find_truth_of_pair();
+}
+
+/* Of round bodies few pairs: their truth costs a millisecond. */
+static long pairs_here(int family) { return is_costly((enum family)family) ? PAIRS_HERE / 4 : PAIRS_HERE; }
+
+/* However little room there is, the bracket holds; what lies in it before is of no account; and 64 corners are what
+ * there is room for by default. */
+static void one_workspace(V(result) * usual, long *full)
+{
+    static const uint32_t corners[] = {8, 9, 10, 12, 16, 31, MOST_CORNERS};
+    V(result) r, again;
+    ask_for_truth(NULL, usual);
+    for (size_t k = 0; k < sizeof corners / sizeof *corners; k++) {
+        size_t bytes = V(workspace_size)(corners[k]);
+        ask_within(bytes, 0, &r);
+        ask_within(bytes + corners[k] % 4 * sizeof(real) + k, 0xff, &again);
+        *full += r.status == GJK_LIMIT && usual->status != GJK_LIMIT;
+        expect_answer("some bytes more, too few for a corner, made a difference", &again, is_same(&r, &again));
+        ask_within(bytes, 0xff, &again);
+        expect_answer("what was in the workspace made a difference", &again, is_same(&r, &again));
+    }
+    ask_within(V(workspace_size)(64), 0x5a, &r);
+    expect_answer("64 corners are not the usual room", &r, is_same(&r, usual));
+}
+
+static void workspaces(void **state)
+{
+    long asked = 0, deep = 0, full = 0;
+    (void)state;
+    for (int f = 0; f < FAMILIES; f++) {
+        for (at = 0; at < pairs_here(f); at++) {
+            V(result) r;
+            draw_here(f);
+            one_workspace(&r, &full);
+            asked++;
+            deep += meets;
+        }
+    }
+    printf("%-6s workspaces: %ld pairs, %ld overlap, %ld times one was full\n", VARIANT, asked, deep, full);
+    assert_true(deep > 0 && full > 0);
+}
+
+/* However few steps, too; and no more than allowed. */
+static void few_steps(void **state)
+{
+    long limits = 0, deep = 0;
+    (void)state;
+    for (int f = 0; f < FAMILIES; f++) {
+        for (at = 0; at < pairs_here(f); at++) {
+            V(options) o = default_options();
+            V(result) r;
+            draw_here(f);
+            deep += meets;
+            for (o.max_steps = 1; o.max_steps <= 20; o.max_steps++) {
+                ask_for_truth(&o, &r);
+                expect_answer("more steps than allowed", &r, r.steps >= 0 && (uint32_t)r.steps <= o.max_steps);
+                limits += r.status == GJK_LIMIT;
+            }
+        }
+    }
+    printf("%-6s few steps: %ld pairs overlap, %ld limits\n", VARIANT, deep, limits);
+    assert_true(deep > 0 && limits > 0);
+}
+
+/* Cutoffs and tolerances are as for distance: what was asked for is kept, or the status says otherwise. */
+static void tolerances(void **state)
+{
+    static const double asked[] = {1e-1, 1e-2, 1e-4};
+    long kept = 0;
+    (void)state;
+    for (int f = 0; f < FAMILIES; f++) {
+        for (at = 0; at < pairs_here(f); at++) {
+            V(options) o = default_options();
+            V(result) r;
+            draw_here(f);
+            for (int k = 0; k < 6; k++) {
+                double tolerance = asked[k / 2];
+                o.abs_tol = k % 2 ? 0 : (real)(tolerance * scale());
+                o.rel_tol = k % 2 ? (real)tolerance : 0;
+                double enough;
+                ask_for_truth(&o, &r);
+                enough = (double)o.abs_tol + (double)o.rel_tol * fabs((double)(r.upper < 0 ? r.lower : r.upper));
+                kept += width_of(&r) <= enough * (1 + 8 * U) + LEAST;
+                expect_answer("wider than asked, and the status does not say so", &r,
+                              !is_normal() || width_of(&r) <= enough * (1 + 8 * U) + LEAST || r.status != GJK_OK ||
+                                  in_u((quad)width_of(&r), span()) <= 100);
+            }
+        }
+    }
+    printf("%-6s tolerances: kept %ld times\n", VARIANT, kept);
+    assert_true(kept > 0);
+}
+
+/* ---- closed forms ---- */
+
+static void start_pair(enum kind a, enum kind b)
+{
+    memset(&drawn, 0, sizeof drawn);
+    p = &drawn;
+    at = -1;
+    start_body(&drawn.a, a);
+    start_body(&drawn.b, b);
+}
+
+/* The least workspace, the usual one and a large one; known: as near as bodies with corners are. */
+static void expect_depth(quad truth_here, int known, real radius_a, real radius_b)
+{
+    static const uint32_t corners[] = {0, 8, 64, 2000};
+    bind_pair(&drawn);
+    drawn.a.shape.radius = radius_a;
+    drawn.b.shape.radius = radius_b;
+    double unit_here = span_of_pair(&p->a, &p->b);
+    nearly.lower = truth_here - quad_abs(truth_here) * (quad)1e-30;
+    nearly.upper = truth_here + quad_abs(truth_here) * (quad)1e-30;
+    nearly.scale = (quad)unit_here;
+    for (int k = 0; k < 4; k++) {
+        V(options) o = default_options();
+        V(result) r;
+        quad n[DIM];
+        if (corners[k] > 0) {
+            o.workspace = room.bytes;
+            o.workspace_bytes = (uint32_t)V(workspace_size)(corners[k]);
+        }
+        assert_true(o.workspace_bytes <= sizeof room);
+        ask(&o, &r);
+        for (int i = 0; i < DIM; i++) {
+            n[i] = (quad)r.normal[i];
+        }
+        expect_answer("the normal is not unit", &r, in_u(quad_abs(norm(n) - 1), 1) <= UNIT_ERROR);
+        expect_answer("the bracket misses the closed form", &r, !(missed(&r) > 0));
+        if (known && corners[k] != 8) {
+            double error = in_u(off_truth(&nearly, (quad)r.value), unit_here);
+            expect_answer("the value is off the closed form", &r, error <= VALUE_ERROR);
+            int narrow = truth_here <= 0 && !(radius_a > 0) && !(radius_b > 0);
+            expect_answer("the bracket is wide", &r,
+                          in_u((quad)width_of(&r), unit_here) <= (narrow ? WIDTH : WIDTH_APART));
+        }
+    }
+}
+
+/* Puts b about that far from a, anyhow. Returns how far. */
+static quad put_off(draws *d, double length)
+{
+    double x[DIM];
+    quad off[DIM];
+    unit(d, x);
+    for (int i = 0; i < DIM; i++) {
+        drawn.b.pose.p[i] = (real)(x[i] * length);
+        off[i] = (quad)drawn.b.pose.p[i];
+    }
+    return norm(off);
+}
+
+/* Balls as origins with radii: apart, touching, overlapping, one in the other, concentric. */
+static void balls(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        draws d = draws_from(seed, 1000, (uint64_t)k);
+        double length = k % 10 == 0 ? 0 : magnitude(&d, -9, 1);
+        real ra = (real)between(&d, 0.1, 2), rb = (real)between(&d, 0.1, 2);
+        start_pair(ORIGIN, ORIGIN);
+        expect_depth(put_off(&d, length) - (quad)ra - (quad)rb, 1, ra, rb);
+    }
+}
+
+/* Capsules side by side, and crossed: their cores touch in a point, and the radii are what is left. */
+static void capsules(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 100; k++) {
+        draws d = draws_from(seed, 1001, (uint64_t)k);
+        real ra = (real)between(&d, 0.1, 2), rb = (real)between(&d, 0.1, 2), off = (real)between(&d, 0, 5);
+        start_pair(SEGMENT, SEGMENT);
+        drawn.a.v[0][0] = drawn.b.v[0][0] = -1;
+        drawn.a.v[1][0] = drawn.b.v[1][0] = 1;
+        drawn.b.pose.p[1] = off;
+        drawn.b.pose.p[0] = (real)between(&d, -1.5, 1.5);
+        expect_depth((quad)off - (quad)ra - (quad)rb, 1, ra, rb);
+#if DIM == 3
+        start_pair(SEGMENT, SEGMENT);
+        drawn.a.v[0][0] = drawn.b.v[0][1] = -1;
+        drawn.a.v[1][0] = drawn.b.v[1][1] = 1;
+        drawn.b.pose.p[2] = k % 2 ? off : 0;
+        expect_depth((quad)drawn.b.pose.p[2] - (quad)ra - (quad)rb, 1, ra, rb);
+#endif
+    }
+}
+
+/* Boxes along the axes, with radii or without: of the axes the one with the least overlap, or the way from corner to
+ * corner. */
+static void boxes_along_axes(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 400; k++) {
+        draws d = draws_from(seed, 1002, (uint64_t)k);
+        quad most = 0, square = 0, truth_here;
+        real ra = k % 2 ? (real)between(&d, 0, 1) : 0, rb = k % 4 == 3 ? (real)between(&d, 0, 1) : 0;
+        start_pair(BOX, BOX);
+        for (int i = 0; i < DIM; i++) {
+            quad gap;
+            drawn.a.half[i] = (real)between(&d, 0.1, 2);
+            drawn.b.half[i] = (real)between(&d, 0.1, 2);
+            drawn.b.pose.p[i] = (real)between(&d, -2, 2);
+            gap = quad_abs((quad)drawn.b.pose.p[i]) - (quad)drawn.a.half[i] - (quad)drawn.b.half[i];
+            most = i == 0 || gap > most ? gap : most;
+            square += gap > 0 ? gap * gap : 0;
+        }
+        truth_here = most > 0 ? quad_sqrt(square) : most;
+        expect_depth(truth_here - (quad)ra - (quad)rb, 1, ra, rb);
+    }
+}
+
+/* Two of the same on one spot: out by the least width. */
+static void concentric(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 20; k++) {
+        draws d = draws_from(seed, 1003, (uint64_t)k);
+        real size[3], least;
+        for (int i = 0; i < 3; i++) {
+            size[i] = k == 0 ? 1 : (real)between(&d, 0.1, 2);
+        }
+        least = size[0] < size[1] ? size[0] : size[1];
+        least = DIM == 3 && size[2] < least ? size[2] : least;
+        start_pair(BOX, BOX);
+        memcpy(drawn.a.half, size, sizeof drawn.a.half);
+        memcpy(drawn.b.half, size, sizeof drawn.b.half);
+        expect_depth(-2 * (quad)least, 1, 0, 0);
+        start_pair(BALL, BALL);
+        drawn.a.radius = drawn.b.radius = size[0];
+        expect_depth(-2 * (quad)size[0], 0, 0, 0);
+#if DIM == 3
+        least = size[0] < size[1] ? size[0] : size[1];
+        start_pair(CYLINDER, CYLINDER);
+        drawn.a.radius = drawn.b.radius = size[0];
+        drawn.a.half_length = drawn.b.half_length = size[1];
+        expect_depth(-2 * (quad)least, 0, 0, 0);
+#endif
+    }
+}
+
+/* One cube on another: they touch, and the way out is the one they are stacked along. */
+static void stacked(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2 * DIM; k++) {
+        int sign = k % 2 ? -1 : 1;
+        V(result) r;
+        start_pair(BOX, BOX);
+        for (int i = 0; i < DIM; i++) {
+            drawn.a.half[i] = drawn.b.half[i] = (real)0.5;
+        }
+        drawn.b.pose.p[k / 2] = (real)sign;
+        expect_depth(0, 1, 0, 0);
+        ask(NULL, &r);
+        expect_answer("cubes that touch have a depth", &r, r.value == 0 && r.lower <= 0 && r.upper == 0);
+        expect_answer("not the axis they are stacked along", &r,
+                      fabs((double)r.normal[k / 2] - sign) <= UNIT_ERROR * U);
+    }
+}
+
+/* ---- paths: b comes, touches, goes in, and comes out again ---- */
+
+#define STEPS 1000
+
+enum way { FACE_ON, TURNED_BOX, ROUNDED_BOX, ANY_HULL, WAYS };
+static const char *const way_name[WAYS] = {"a cube on a plate", "a turned box on a plate",
+                                           "a rounded box on a rounded plate", "hulls any way"};
+
+typedef struct track {
+    double along[DIM], from[DIM]; /* the way, and where b is in the middle of it */
+    real radius;
+    int keeps_side; /* the way out is always by the same face */
+} track;
+
+/* A plate, turned by any map, is so wide that the way out is by its face. */
+static void draw_plate(draws *d, enum way way, track *t)
+{
+    double most;
+    start_pair(BOX, BOX);
+    for (int i = 0; i < DIM; i++) {
+        drawn.a.half[i] = i == 0 ? (real)1.5 : 3;
+        drawn.b.half[i] = (real)between(d, 0.3, 1);
+    }
+    turn(d, &drawn.a, 100);
+    memcpy(drawn.b.pose.m, drawn.a.pose.m, sizeof drawn.b.pose.m);
+    if (way != FACE_ON) {
+        turn(d, &drawn.b, 100);
+    }
+    for (int i = 0; i < DIM; i++) {
+        t->along[i] = (double)drawn.a.pose.m[i * DIM];
+    }
+    double back[DIM];
+    for (int i = 0; i < DIM; i++) {
+        back[i] = -t->along[i];
+    }
+    most = extent(&drawn.a, t->along) + extent(&drawn.b, back) + 2 * (double)t->radius;
+    for (int i = 0; i < DIM; i++) {
+        t->from[i] = t->along[i] * most;
+    }
+}
+
+static void draw_way(draws *d, enum way way, track *t)
+{
+    memset(t, 0, sizeof *t);
+    t->keeps_side = way != ANY_HULL;
+    t->radius = way == ROUNDED_BOX ? (real)0.1 : 0;
+    if (way != ANY_HULL) {
+        draw_plate(d, way, t);
+        return;
+    }
+    start_pair(POINTS, POINTS);
+    draw_hull(d, &drawn.a, 20, 1);
+    draw_hull(d, &drawn.b, 20, 1);
+    unit(d, t->along);
+    for (int i = 0; i < DIM; i++) {
+        t->from[i] = between(d, -0.3, 0.3);
+    }
+}
+
+static void place_on_way(const track *t, int step)
+{
+    double by = 0.5 * cos(2 * 3.14159265358979 * step / STEPS) * (t->keeps_side ? 1 : 4);
+    for (int i = 0; i < DIM; i++) {
+        drawn.b.pose.p[i] = (real)(t->from[i] + t->along[i] * by);
+    }
+    bind_pair(&drawn);
+    drawn.a.shape.radius = drawn.b.shape.radius = t->radius;
+}
+
+/* From step to step the value changes by no more than b has moved, and the normal stays on its side. */
+static void check_step(const track *t, const V(result) * r, const V(result) * before, const real *was, double errors)
+{
+    quad moved_by[DIM], turned_by = 0, change = quad_abs((quad)r->value - (quad)before->value);
+    for (int i = 0; i < DIM; i++) {
+        moved_by[i] = (quad)drawn.b.pose.p[i] - (quad)was[i];
+        turned_by += (quad)r->normal[i] * (quad)before->normal[i];
+    }
+    expect_answer("the value jumps", r, change <= norm(moved_by) + (quad)(errors * U * span_of_pair(&p->a, &p->b)));
+    expect_answer("the normal flips", r, !t->keeps_side || turned_by > 0);
+}
+
+static void go_the_way(const track *t, V(cache) * cache, long *in, long *out)
+{
+    V(options) o = default_options();
+    V(result) r, before;
+    real was[DIM] = {0};
+    memset(&before, 0, sizeof before);
+    o.cache = cache;
+    for (at = 0; at <= STEPS; at++) {
+        place_on_way(t, (int)at);
+        ask(&o, &r);
+        if (at > 0) {
+            check_step(t, &r, &before, was, 2 * VALUE_ERROR);
+        }
+        *(r.value < 0 ? in : out) += 1;
+        before = r;
+        memcpy(was, drawn.b.pose.p, sizeof was);
+    }
+}
+
+static void paths(void **state)
+{
+    (void)state;
+    for (int way = 0; way < WAYS; way++) {
+        long in = 0, out = 0;
+        for (int k = 0; k < 6; k++) {
+            draws d = draws_from(seed, 1004 + (uint64_t)way, (uint64_t)k);
+            V(cache) cache;
+            track t;
+            memset(&cache, 0, sizeof cache);
+            draw_way(&d, (enum way)way, &t);
+            go_the_way(&t, NULL, &in, &out);
+            go_the_way(&t, &cache, &in, &out);
+        }
+        printf("%-6s %s: %ld steps overlapping, %ld apart\n", VARIANT, way_name[way], in, out);
+        assert_true(in > 0 && out > 0);
+    }
+}
+
+/* ---- turned boxes, against the axes that can separate them ---- */
+
+static void column(const body *b, int j, quad *x)
+{
+    for (int i = 0; i < DIM; i++) {
+        x[i] = (quad)b->pose.m[i * DIM + j];
+    }
+}
+
+/* Of the boxes along n, the way the bodies stand; very low where n is 0. */
+static quad box_separation(const quad *n)
+{
+    quad along = 0, size = norm(n), x[DIM];
+    if (!(size > 0)) {
+        return -(quad)REAL_MAX;
+    }
+    for (int i = 0; i < DIM; i++) {
+        along += n[i] * ((quad)p->b.pose.p[i] - (quad)p->a.pose.p[i]);
+    }
+    along = quad_abs(along);
+    for (int k = 0; k < 2 * DIM; k++) {
+        const body *b = k < DIM ? &p->a : &p->b;
+        quad side = 0;
+        column(b, k % DIM, x);
+        for (int i = 0; i < DIM; i++) {
+            side += n[i] * x[i];
+        }
+        along -= quad_abs(side) * (quad)b->half[k % DIM];
+    }
+    return along / size;
+}
+
+/* Across two edges; in the plane, across the first. */
+static void across_edges(const quad *x, const quad *y, quad *n)
+{
+#if DIM == 3
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = x[j] * y[k] - x[k] * y[j];
+    }
+#else
+    (void)y;
+    n[0] = x[1];
+    n[1] = -x[0];
+#endif
+}
+
+/* Over the axes across any two of the edges: minus the depth, or no more than the distance. The poses are taken as the
+ * maps that they spell. */
+static quad separation_of_boxes(void)
+{
+    quad most = 0, x[DIM], y[DIM], n[DIM];
+    for (int i = 0; i < 2 * DIM; i++) {
+        for (int j = i + 1; j < 2 * DIM; j++) {
+            quad along;
+            column(i < DIM ? &p->a : &p->b, i % DIM, x);
+            column(j < DIM ? &p->a : &p->b, j % DIM, y);
+            across_edges(x, y, n);
+            along = box_separation(n);
+            most = (i == 0 && j == 1) || along > most ? along : most;
+        }
+    }
+#if DIM == 2
+    column(&p->b, 1, x); /* of the last edge there is no pair */
+    across_edges(x, x, n);
+    x[0] = box_separation(n);
+    most = x[0] > most ? x[0] : most;
+#endif
+    return most;
+}
+
+/* The largest coordinate, seen from the middle between the boxes. */
+static double scale_of_boxes(void)
+{
+    double most = 0;
+    for (int i = 0; i < DIM; i++) {
+        double half = fabs((double)p->b.pose.p[i] - (double)p->a.pose.p[i]) / 2, a = half, b = half;
+        for (int j = 0; j < DIM; j++) {
+            a += (double)p->a.half[j] * fabs((double)p->a.pose.m[i * DIM + j]);
+            b += (double)p->b.half[j] * fabs((double)p->b.pose.m[i * DIM + j]);
+        }
+        most = fmax(most, fmax(a, b));
+    }
+    return most;
+}
+
+static void turned_boxes(void **state)
+{
+    static figures s;
+    s.family = BOXES;
+    (void)state;
+    for (at = 0; at < boxes; at++) {
+        V(result) r;
+        double error, width;
+        draws d = draws_from(seed + 2, BOXES, (uint64_t)at);
+        draw_pair(&d, BOXES, &drawn);
+        p = &drawn;
+        nearly.lower = nearly.upper = separation_of_boxes();
+        nearly.scale = (quad)scale_of_boxes();
+        ask(NULL, &r);
+        s.pairs++;
+        if (nearly.upper > 0) {
+            hold(&s, HOLDS, &r, (quad)r.upper >= nearly.upper && r.upper > 0, 0);
+            continue;
+        }
+        s.deep++;
+        s.sharp++;
+        s.sum_calls += r.supports / 2.0;
+        s.max_calls = fmax(s.max_calls, r.supports / 2.0);
+        nearly.lower -= nearly.scale * (quad)1e-30;
+        nearly.upper += nearly.scale * (quad)1e-30;
+        error = in_u(off_truth(&nearly, (quad)r.value), scale());
+        width = in_u((quad)width_of(&r), scale());
+        s.max_error = fmax(s.max_error, error);
+        s.max_width = fmax(s.max_width, width);
+        hold(&s, HOLDS, &r, !(missed(&r) > 0), in_u(missed(&r), scale()));
+        hold(&s, NEAR, &r, error <= VALUE_ERROR, error);
+        hold(&s, NARROW, &r, width <= WIDTH, width);
+    }
+    print_figures(&s);
+    print_faults(&s.faults, "turned boxes");
+    assert_int_equal(s.faults.count, 0);
+    assert_true(s.deep > boxes / 10);
+}
+
+/* ---- all ---- */
+
+static void read_arguments(int argc, char **argv)
+{
+    const char *pairs = getenv("GJK_STRESS_PAIRS");
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--seed") == 0 && i + 1 < argc) {
+            seed = strtoull(argv[++i], NULL, 10);
+        } else if (strcmp(argv[i], "--boxes") == 0 && i + 1 < argc) {
+            boxes = strtol(argv[++i], NULL, 10);
+        } else {
+            pairs = argv[i];
+        }
+    }
+    pairs_per_family = pairs ? strtol(pairs, NULL, 10) : pairs_per_family;
+}
+
+int main(int argc, char **argv)
+{
+    static const struct CMUnitTest others[] = {cmocka_unit_test(every_law_was_asked),
+                                               cmocka_unit_test(workspaces),
+                                               cmocka_unit_test(few_steps),
+                                               cmocka_unit_test(tolerances),
+                                               cmocka_unit_test(balls),
+                                               cmocka_unit_test(capsules),
+                                               cmocka_unit_test(boxes_along_axes),
+                                               cmocka_unit_test(concentric),
+                                               cmocka_unit_test(stacked),
+                                               cmocka_unit_test(paths),
+                                               cmocka_unit_test(turned_boxes)};
+    struct CMUnitTest tests[FAMILIES + sizeof others / sizeof *others];
+    read_arguments(argc, argv);
+    memset(tests, 0, sizeof tests);
+    for (int f = 0; f < FAMILIES; f++) {
+        figures_of[f].family = (enum family)f;
+        tests[f].name = family_name[f];
+        tests[f].test_func = family_holds;
+        tests[f].initial_state = &figures_of[f];
+    }
+    memcpy(tests + FAMILIES, others, sizeof others);
+    exact_start(&best);
+    printf("%ld pairs of each family, %ld turned boxes, seed %llu; errors and widths in u * scale\n", pairs_per_family,
+           boxes, (unsigned long long)seed);
+    return cmocka_run_group_tests_name("depths of " VARIANT, tests, NULL, NULL);
+}
