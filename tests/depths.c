@@ -9,12 +9,12 @@
  * Of pairs that are apart each third is asked about again, moved into each other: so every family overlaps.
  *
  * Prints for each family how many pairs overlap, the largest error and the widest bracket in u * scale, of bodies with
- * corners and no radius apart from all others, and the support calls of each body. */
+ * corners apart from all others, and the support calls of each body. */
 #include "faults.h"
 #include "pairs.h"
 #include "settle.h"
 
-/* Of bodies with corners that meet, in u * scale. */
+/* Of bodies with corners that meet, in u * scale, radii in it. */
 #define VALUE_ERROR 4.0
 #define WIDTH 16.0
 #define WIDTH_APART 200.0 /* of cores that are apart, in u * span */
@@ -31,6 +31,7 @@ enum law {
     ORDERED,
     NEAR,
     NARROW,
+    ENDS,
     AS_APART,
     IS_UNIT,
     LEADS_DOWN,
@@ -49,6 +50,7 @@ static const char *const law_name[LAWS] = {
     "the value is outside its bracket, or the status another than returned",
     "the value is further off than it may be, in u * scale",
     "the bracket is wider than it may be, in u * scale",
+    "corners are known, and it found no end",
     "apart, but not what distance says",
     "the normal is not unit, in u",
     "the normal does not realise lower, in u * span",
@@ -62,8 +64,7 @@ static const char *const law_name[LAWS] = {
 
 typedef struct figures {
     enum family family;
-    long pairs, apart, deep, sharp, unsure, limits;
-    long astray; /* points of a face that were found beside the place nearest the origin */
+    long pairs, apart, deep, known, unsure, limits, astray;
     long asked[LAWS];
     faults faults;
     double max_error, max_width, max_round_error, max_round_width, max_unlimited, sum_calls, max_calls;
@@ -76,7 +77,7 @@ static void print_figures(const figures *s)
     printf("%-6s %-10s %5ld pairs %5ld overlap | corners %5ld error %8.3g width %8.3g | others error %8.3g width "
            "%8.3g, %8.3g but for limits | "
            "calls %5.2f max %5.1f | %ld limits %ld unsure %ld faults\n",
-           VARIANT, family_name[s->family], s->pairs, s->deep, s->sharp, s->max_error, s->max_width, s->max_round_error,
+           VARIANT, family_name[s->family], s->pairs, s->deep, s->known, s->max_error, s->max_width, s->max_round_error,
            s->max_round_width, s->max_unlimited, mean(s->sum_calls, s->deep), s->max_calls, s->limits, s->unsure,
            s->faults.count);
 }
@@ -89,7 +90,8 @@ static uint64_t seed = 1;
 static exact best;
 static truth nearly, after, spot;
 static int sure;  /* whether the truth is exact, or good to 28 digits */
-static int sharp; /* whether both have known corners and no radius */
+static int known; /* whether both have known corners, and so their truth */
+static int sharp; /* and no radius either */
 static int meets; /* whether they have a point in common */
 static pair drawn, moved;
 static const pair *p; /* that is being asked about */
@@ -97,8 +99,11 @@ static long at;       /* its number */
 
 #define LEAST ((double)REAL_MIN * (double)REAL_EPSILON) /* the least number above 0 */
 
-/* What lengths are measured in; never 0. */
-static double scale(void) { return fmax((double)nearly.scale, LEAST); }
+/* What lengths are measured in; never 0. The truth's own scale is that of the cores. */
+static double scale(void)
+{
+    return fmax((double)nearly.scale + (double)p->a.shape.radius + (double)p->b.shape.radius, LEAST);
+}
 static double span(void) { return fmax(span_of_pair(&p->a, &p->b), scale()); }
 
 /* The largest coordinate of a position: points in the frame, and what is moved in it, round by this. */
@@ -149,8 +154,9 @@ static void find_truth_of_pair(void)
 {
     find_truth(&nearly, &p->a, &p->b, 1);
     sure = settle(&nearly, &best, &p->a, &p->b) || nearly.certified;
-    sharp = has_corners(&p->a) && has_corners(&p->b) && !(p->a.shape.radius > 0) && !(p->b.shape.radius > 0);
-    meets = sharp && sure ? !nearly.apart : nearly.upper <= 0;
+    known = has_corners(&p->a) && has_corners(&p->b) && sure;
+    sharp = known && !(p->a.shape.radius > 0) && !(p->b.shape.radius > 0);
+    meets = sharp ? !nearly.apart : nearly.upper <= 0;
 }
 
 /* ---- the laws of the numbers ---- */
@@ -165,9 +171,8 @@ static void check_bracket(figures *s, const V(result) * r, int status)
 static void check_depth(figures *s, const V(result) * r)
 {
     double error = in_u(off_truth(&nearly, (quad)r->value), scale()), width = in_u((quad)width_of(r), scale());
-    int narrow = sharp && sure;
     s->deep++;
-    s->sharp += narrow;
+    s->known += known;
     s->unsure += !sure;
     s->limits += r->status == GJK_LIMIT;
     s->sum_calls += r->supports / 2.0;
@@ -175,14 +180,15 @@ static void check_depth(figures *s, const V(result) * r)
     if (!is_normal()) {
         return;
     }
-    *(narrow ? &s->max_error : &s->max_round_error) = fmax(narrow ? s->max_error : s->max_round_error, error);
-    *(narrow ? &s->max_width : &s->max_round_width) = fmax(narrow ? s->max_width : s->max_round_width, width);
-    if (!narrow && r->status != GJK_LIMIT) {
+    *(known ? &s->max_error : &s->max_round_error) = fmax(known ? s->max_error : s->max_round_error, error);
+    *(known ? &s->max_width : &s->max_round_width) = fmax(known ? s->max_width : s->max_round_width, width);
+    if (!known && r->status != GJK_LIMIT) {
         s->max_unlimited = fmax(s->max_unlimited, width);
     }
-    if (narrow) {
+    if (known) {
         hold(s, NEAR, r, error <= VALUE_ERROR, error);
         hold(s, NARROW, r, width <= WIDTH, width);
+        hold(s, ENDS, r, r->status != GJK_LIMIT, r->steps);
     }
 }
 
@@ -233,7 +239,7 @@ static void check_normal(figures *s, const V(result) * r)
     along = separation_along(r->normal);
     off = in_u((quad)r->lower - along, span());
     hold(s, LEADS_DOWN, r, off <= NORMAL_ERROR, off);
-    if (sharp && sure && meets) {
+    if (known && meets) {
         off = in_u(nearly.lower - along, scale());
         hold(s, LEADS_OUT, r, off <= NORMAL_ERROR, off);
     }
@@ -242,12 +248,20 @@ static void check_normal(figures *s, const V(result) * r)
 /* Of bodies without known corners the bracket says how well the value is known, and spans what rounds. */
 static double allowed(const V(result) * r, double errors)
 {
-    double rounding = sharp && sure ? scale() : span();
-    return errors * U * (rounding + far_out()) + (sharp && sure ? 0 : width_of(r));
+    double rounding = known ? scale() : span();
+    return errors * U * (rounding + far_out()) + (known ? 0 : width_of(r));
 }
 
 /* On a round body the way to a point, or the point, is as far off as the root of the bracket's width says. */
-static double slant(const V(result) * r) { return sharp && sure ? 0 : 8 * sqrt(width_of(r) * span()); }
+static double slant(const V(result) * r) { return known ? 0 : 8 * sqrt(width_of(r) * span()); }
+
+/* Of cores with known corners that are apart, and only the radii overlap, the closest pair may be off by the root of a
+ * rounding of how far apart they are: few are. */
+static int is_astray(quad gap)
+{
+    quad between_cores = nearly.upper + (quad)p->a.shape.radius + (quad)p->b.shape.radius;
+    return known && !sharp && gap * gap <= (quad)(16 * U * scale()) * between_cores;
+}
 
 static void check_touch(figures *s, const V(result) * r)
 {
@@ -311,11 +325,8 @@ static void check_points(figures *s, const V(result) * r)
     if (r->status == GJK_LIMIT) {
         return; /* the lowest facet is not the one whose plane is nearest */
     }
-    if (sharp && sure && gap > most) {
-        s->astray++;
-    } else {
-        hold(s, SPANS, r, gap <= most, in_u(gap, scale()));
-    }
+    s->astray += gap > most && is_astray(gap);
+    hold(s, SPANS, r, gap <= most || is_astray(gap), in_u(gap, scale()));
     for (int k = 0; k < 2; k++) {
         hold(s, IS_DEEP, r, deep[k] <= most + (quad)width_of(r), in_u(deep[k], scale()));
     }
@@ -384,7 +395,7 @@ static void family_holds(void **state)
     print_figures(s);
     print_faults(&s->faults, family_name[s->family]);
     assert_int_equal(s->faults.count, 0);
-    assert_true(s->astray <= 1 + s->deep / 100);
+    assert_true(s->astray <= 1 + s->deep / 200);
 }
 
 static void every_law_was_asked(void **state)
@@ -574,7 +585,7 @@ static void start_pair(enum kind a, enum kind b)
 }
 
 /* The least workspace, the usual one and a large one; known: as near as bodies with corners are. */
-static void expect_depth(quad truth_here, int known, real radius_a, real radius_b)
+static void expect_depth(quad truth_here, int corners_known, real radius_a, real radius_b)
 {
     static const uint32_t corners[] = {0, 8, 64, 2000};
     bind_pair(&drawn);
@@ -599,12 +610,11 @@ static void expect_depth(quad truth_here, int known, real radius_a, real radius_
         }
         expect_answer("the normal is not unit", &r, in_u(quad_abs(norm(n) - 1), 1) <= UNIT_ERROR);
         expect_answer("the bracket misses the closed form", &r, !(missed(&r) > 0));
-        if (known && corners[k] != 8) {
+        if (corners_known && corners[k] != 8) {
             double error = in_u(off_truth(&nearly, (quad)r.value), unit_here);
             expect_answer("the value is off the closed form", &r, error <= VALUE_ERROR);
-            int narrow = truth_here <= 0 && !(radius_a > 0) && !(radius_b > 0);
             expect_answer("the bracket is wide", &r,
-                          in_u((quad)width_of(&r), unit_here) <= (narrow ? WIDTH : WIDTH_APART));
+                          in_u((quad)width_of(&r), unit_here) <= (truth_here <= 0 ? WIDTH : WIDTH_APART));
         }
     }
 }
@@ -729,6 +739,162 @@ static void stacked(void **state)
         expect_answer("not the axis they are stacked along", &r,
                       fabs((double)r.normal[k / 2] - sign) <= UNIT_ERROR * U);
     }
+}
+
+/* ---- round shapes, deep in others ---- */
+
+#define SHARE 0.99        /* of the pairs that are within these: */
+#define USUAL_GOAL 1e-9   /* in the usual room, in scales */
+#define LARGER_GOAL 1e-12 /* in a larger one */
+#define LARGER_ROOM 1000
+
+static const enum kind round_kinds[] = {ELLIPSOID, BALL, BOX, POINTS,
+#if DIM == 3
+                                        CYLINDER,  CONE, DISC
+#endif
+};
+#define ROUND_KINDS (int)(sizeof round_kinds / sizeof *round_kinds)
+
+static void draw_any(draws *d, body *b, enum kind kind)
+{
+    if (kind == POINTS) {
+        draw_hull(d, b, 20, 1);
+    } else {
+        start_body(b, kind);
+    }
+    for (int i = 0; i < DIM; i++) {
+        b->half[i] = (real)between(d, 0.2, 1);
+    }
+    b->radius = (real)between(d, 0.2, 1);
+    b->half_length = (real)between(d, 0.2, 1);
+    turn(d, b, 100);
+}
+
+/* Whether the bracket is as narrow as that; float shows no more than its roundings. */
+static int is_within(const V(result) * r, double goal) { return width_of(r) <= fmax(goal, 8 * U) * span(); }
+
+typedef struct convergence {
+    long pairs, usual, larger, limits;
+    double calls, widest;
+} convergence;
+
+static void converge(convergence *c)
+{
+    V(options) o = default_options();
+    V(result) r;
+    draws d = draws_from(seed, 2000, (uint64_t)at);
+    draw_any(&d, &drawn.a, round_kinds[at % ROUND_KINDS]);
+    draw_any(&d, &drawn.b, round_kinds[at / ROUND_KINDS % ROUND_KINDS]);
+    for (int i = 0; i < DIM; i++) {
+        drawn.b.pose.p[i] = (real)between(&d, -0.5, 0.5);
+    }
+    bind_pair(&drawn);
+    p = &drawn;
+    find_truth_of_pair();
+    if (!meets || (has_corners(&p->a) && has_corners(&p->b))) {
+        return;
+    }
+    c->pairs++;
+    ask_for_truth(NULL, &r);
+    c->usual += is_within(&r, USUAL_GOAL);
+    c->limits += r.status == GJK_LIMIT;
+    c->calls += r.supports / 2.0;
+    c->widest = fmax(c->widest, width_of(&r) / span());
+    o.workspace = room.bytes;
+    o.workspace_bytes = (uint32_t)V(workspace_size)(LARGER_ROOM);
+    assert_true(o.workspace_bytes <= sizeof room);
+    ask_for_truth(&o, &r);
+    c->larger += is_within(&r, LARGER_GOAL);
+}
+
+/* Any two of them, at least one round, one's middle in the other. */
+static void round_shapes(void **state)
+{
+    convergence c;
+    (void)state;
+    memset(&c, 0, sizeof c);
+    for (at = 0; at < 2 * pairs_per_family; at++) {
+        converge(&c);
+    }
+    printf("%-6s round shapes: %ld pairs overlap, in the usual room %ld within %.0e, widest %.2g, %ld limits, calls "
+           "%.1f; in a larger one %ld within %.0e\n",
+           VARIANT, c.pairs, c.usual, USUAL_GOAL, c.widest, c.limits, mean(c.calls, c.pairs), c.larger, LARGER_GOAL);
+    assert_true(c.pairs > pairs_per_family);
+    assert_true((double)c.usual >= SHARE * (double)c.pairs);
+    assert_true((double)c.larger >= SHARE * (double)c.pairs);
+}
+
+/* ---- to the last place ---- */
+
+#define LAST_SHARE 0.998 /* of the pairs that are settled */
+
+typedef struct last_places {
+    long pairs, settled, flush;
+    double max_error, least;
+} last_places;
+
+/* From x to the next number beyond it, away from 0. */
+static double last_place(real x)
+{
+    int e;
+    frexp(fmax(fabs((double)x), (double)REAL_MIN), &e);
+    return ldexp((double)REAL_EPSILON, e - 1);
+}
+
+static void ask_to_the_last_place(last_places *l)
+{
+    V(options) o = default_options();
+    V(result) r;
+    double place, error;
+    o.tight = 1;
+    find_truth_of_pair();
+    ask_for_truth(&o, &r);
+    if (!known || !meets) {
+        return;
+    }
+    l->pairs++;
+    place = last_place(r.lower);
+    error = (double)(off_truth(&nearly, (quad)r.value)) / place;
+    if (sharp && !(nearly.lower < 0)) {
+        l->flush++;
+        l->settled += r.lower == 0 && r.value == 0 && r.upper == 0;
+    } else if (width_of(&r) <= 2 * place) {
+        l->settled++;
+        l->max_error = fmax(l->max_error, error);
+        l->least = fmin(l->least, (double)(-nearly.upper) / scale());
+    }
+}
+
+/* Every family with corners, as it is drawn, and at depths down to some 1e-12 of the scale. */
+static void last_places_of_depths(void **state)
+{
+    last_places l;
+    (void)state;
+    memset(&l, 0, sizeof l);
+    for (int f = 0; f < FAMILIES; f++) {
+        for (at = 0; at < pairs_per_family && !is_costly((enum family)f) && f != COUPLES; at++) {
+            V(result) r;
+            draws d = draws_from(seed + 3, (uint64_t)f, (uint64_t)at);
+            double by = ldexp(1, -20 - (int)(at % 20));
+            draw_pair(&d, (enum family)f, &drawn);
+            p = &drawn;
+            ask_to_the_last_place(&l);
+            if (is_extreme((enum family)f) || !known) {
+                continue;
+            }
+            ask(NULL, &r);
+            for (int i = 0; i < DIM; i++) {
+                double way = (double)r.value + by * scale();
+                drawn.b.pose.p[i] = (real)((double)drawn.b.pose.p[i] - way * (double)r.normal[i]);
+            }
+            ask_to_the_last_place(&l);
+        }
+    }
+    printf("%-6s to the last place: %ld pairs, %ld settled, %ld of them flush; error %.3g ulp, depth down to %.2g\n",
+           VARIANT, l.pairs, l.settled, l.flush, l.max_error, l.least);
+    assert_true(l.pairs > 0 && l.flush > 0);
+    assert_true(l.max_error <= 1);
+    assert_true((double)l.settled >= LAST_SHARE * (double)l.pairs);
 }
 
 /* ---- paths: b comes, touches, goes in, and comes out again ---- */
@@ -956,7 +1122,7 @@ static void turned_boxes(void **state)
             continue;
         }
         s.deep++;
-        s.sharp++;
+        s.known++;
         s.sum_calls += r.supports / 2.0;
         s.max_calls = fmax(s.max_calls, r.supports / 2.0);
         nearly.lower -= nearly.scale * (quad)1e-30;
@@ -1003,6 +1169,8 @@ int main(int argc, char **argv)
                                                cmocka_unit_test(boxes_along_axes),
                                                cmocka_unit_test(concentric),
                                                cmocka_unit_test(stacked),
+                                               cmocka_unit_test(round_shapes),
+                                               cmocka_unit_test(last_places_of_depths),
                                                cmocka_unit_test(paths),
                                                cmocka_unit_test(turned_boxes)};
     struct CMUnitTest tests[FAMILIES + sizeof others / sizeof *others];

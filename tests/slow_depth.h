@@ -3,8 +3,13 @@
  * that set, each time beyond the face nearest to the origin. Its nearest face bounds the depth from below, the nearest
  * plane that supports the set from above. Included by truth.h. */
 
+#ifndef MAX_CORNERS
 #define MAX_CORNERS 160
-#define MAX_FACES 640
+#endif
+#define MAX_FACES (4 * MAX_CORNERS)
+#ifndef ROUND_STEPS
+#define ROUND_STEPS 40 /* of round bodies, which have no end */
+#endif
 
 typedef struct face {
     int corner[DIM]; /* counterclockwise from outside */
@@ -228,7 +233,7 @@ static void find_depth(const view *a, const view *b, quad size, quad *shallow, q
 {
     polytope p;
     quad flat[DIM], w[DIM];
-    int steps = a->count && b->count ? MAX_CORNERS : 40;
+    int steps = a->count && b->count ? MAX_CORNERS : ROUND_STEPS;
     *shallow = -4 * size;
     *deep = 4 * size;
     if (!first_polytope(a, b, &p, size, flat)) {
@@ -243,7 +248,7 @@ static void find_depth(const view *a, const view *b, quad size, quad *shallow, q
         for (int i = 1; i < p.faces; i++) {
             at = p.f[i].height < p.f[at].height ? i : at;
         }
-        *shallow = p.f[at].height;
+        *shallow = p.f[at].height > *shallow ? p.f[at].height : *shallow; /* a sliver among later ones may be noise */
         reach = beyond(a, b, p.f[at].normal, w);
         *deep = reach < *deep ? reach : *deep;
         if (*deep - *shallow <= size * (quad)1e-29 || !grow(&p, w, size)) {

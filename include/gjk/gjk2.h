@@ -73,7 +73,7 @@ typedef struct gjk2_options {
     double slack;             /* how far a support may fall short of the farthest point, in its set's own coordinates */
     gjk2_cache *cache;        /* NULL: start cold */
     void *workspace;          /* for penetration, aligned for a double; NULL: it takes its own from the stack */
-    uint32_t tight;           /* 1: the distance of points, box, segment and origin to the last place, see below */
+    uint32_t tight;           /* 1: of points, box, segment and origin to the last place, see below */
     uint32_t workspace_bytes; /* of the workspace; 0 where there is none */
 } gjk2_options;
 
@@ -115,12 +115,14 @@ GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_
  * and point_a - point_b is depth * normal. Of round shapes the points are off sideways by about the
  * root of what the bracket is wide, and with GJK_LIMIT they go with the polytope as far as it got.
  *
- * The depth is sought by a polygon that grows within the difference of the shapes. Its corners have a workspace; where
- * that is full the bracket holds all the same, status GJK_LIMIT. Polygons of everyday size need 10 to 30 corners. Radii
- * take no room. cutoff and tolerances are as for distance. */
+ * The depth is sought by a polygon that grows within the difference of the shapes. Its corners have a workspace;
+ * where that is full, those that can no longer matter make room, and where there are none the bracket holds all the
+ * same, status GJK_LIMIT. 64 corners do for everyday polygons and round shapes. Radii take no room. cutoff and
+ * tolerances are as for distance, and so is tight: a depth down to about the least that the coordinates can spell is
+ * right to the last place. It takes up to 48 KB of stack, in float 28. */
 GJK_API int gjk2_penetration(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
-/* The bytes of a workspace for so many corners, from 8 to 16384; 0 for other numbers. Without one there is room for 64,
- * 7168 bytes of stack, in float 4096. Calls may run at once unless they share a workspace; what it holds before and
+/* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
+ * 7264 bytes of stack, in float 4160. Calls may run at once unless they share a workspace; what it holds before and
  * after is of no account. */
 GJK_API size_t gjk2_workspace_size(uint32_t corners);
 

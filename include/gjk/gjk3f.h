@@ -66,15 +66,15 @@ typedef struct gjk3f_cache {
  *     o.size = sizeof o;
  * All numbers are finite and not negative. */
 typedef struct gjk3f_options {
-    uint32_t size;      /* sizeof(gjk3f_options) in your build; never 0 */
-    uint32_t max_steps; /* 0: 256. One step is one support call on each shape */
-    float abs_tol;     /* stop at upper - lower <= abs_tol + rel_tol * upper; */
-    float rel_tol;     /*   both 0: as tight as rounding allows */
-    float cutoff;      /* > 0: stop once lower is above it; value may then be as far off as upper */
-    float slack;       /* how far a support may fall short of the farthest point, in its set's own coordinates */
-    gjk3f_cache *cache;  /* NULL: start cold */
-    void *workspace;    /* for penetration, aligned for a float; NULL: it takes its own from the stack */
-    uint32_t tight;     /* 1: the distance of points, box, segment, triangle and origin to the last place, see below */
+    uint32_t size;            /* sizeof(gjk3f_options) in your build; never 0 */
+    uint32_t max_steps;       /* 0: 256. One step is one support call on each shape */
+    float abs_tol;           /* stop at upper - lower <= abs_tol + rel_tol * upper; */
+    float rel_tol;           /*   both 0: as tight as rounding allows */
+    float cutoff;            /* > 0: stop once lower is above it; value may then be as far off as upper */
+    float slack;             /* how far a support may fall short of the farthest point, in its set's own coordinates */
+    gjk3f_cache *cache;        /* NULL: start cold */
+    void *workspace;          /* for penetration, aligned for a float; NULL: it takes its own from the stack */
+    uint32_t tight;           /* 1: of points, box, segment, triangle and origin to the last place, see below */
     uint32_t workspace_bytes; /* of the workspace; 0 where there is none */
 } gjk3f_options;
 
@@ -116,12 +116,16 @@ GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gj
  * and point_a - point_b is depth * normal. Of round shapes the points are off sideways by about the
  * root of what the bracket is wide, and with GJK_LIMIT they go with the polytope as far as it got.
  *
- * The depth is sought by a polytope that grows within the difference of the shapes. Its corners have a workspace; where
- * that is full the bracket holds all the same, status GJK_LIMIT. Polytopes of everyday size need 20 to 60 corners,
- * round shapes about 100 for each six digits. Radii take no room. cutoff and tolerances are as for distance. */
+ * The depth is sought by a polytope that grows within the difference of the shapes. Its corners have a workspace;
+ * where that is full, those that can no longer matter make room, and where there are none the bracket holds all the
+ * same, status GJK_LIMIT. 64 corners do for everyday polytopes, and for round shapes unless they are all but
+ * concentric: what ends those is max_steps, some 40 to 130 steps being usual. Radii take no room. cutoff and
+ * tolerances are as for distance, and so is tight: a depth down to about the least that the coordinates can spell is
+ * right to the last place, unless the polytope comes to its end in the noise of nearly flat bodies; then the bracket
+ * is the usual one. It takes up to 80 KB of stack, in float 45. */
 GJK_API int gjk3f_penetration(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
-/* The bytes of a workspace for so many corners, from 8 to 16384; 0 for other numbers. Without one there is room for 64,
- * 13584 bytes of stack, in float 8032. Calls may run at once unless they share a workspace; what it holds before and
+/* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
+ * 13536 bytes of stack, in float 8352. Calls may run at once unless they share a workspace; what it holds before and
  * after is of no account. */
 GJK_API size_t gjk3f_workspace_size(uint32_t corners);
 

@@ -3,8 +3,8 @@
 #ifndef GJK_CORE_API_H
 #define GJK_CORE_API_H
 
+#include "contact.h"
 #include "intersect.h"
-#include "penetration.h"
 #include "widen.h"
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
@@ -117,14 +117,22 @@ static real level_of(const difference *d, real radius, real far)
     return smaller(d->scale, smaller(leveler(size(radius)), leveler(far))); /* a radius may be -0 */
 }
 
-/* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
-static void bracket(result *r, const difference *d, real lower, real upper, real radius)
+/* A number below x + y + z; level * each is of size 1 at most. */
+static real below_sum(real x, real y, real z)
 {
-    real level = level_of(d, radius, 0), down = level * d->unscale, up = 1 / level;
-    real near = lower * down, far = upper * down, off = radius * level;
-    if (radius > 0) {
-        near = near - off - 4 * UNIT * (size(near) + off);
-        far = far - off + 4 * UNIT * (size(far) + off);
+    twin r = sum_of(y, z), s = sum_of(x, r.high);
+    s = sum_of(s.high, s.low + r.low);
+    return below(s.high, s.low - 4 * UNIT * UNIT * (size(x) + size(r.high)), 0);
+}
+
+/* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
+static void bracket(result *r, const difference *d, real lower, real upper, const shape *a, const shape *b)
+{
+    real level = level_of(d, a->radius + b->radius, 0), down = level * d->unscale, up = 1 / level;
+    real near = lower * down, far = upper * down;
+    if (a->radius > 0 || b->radius > 0) {
+        near = below_sum(near, -a->radius * level, -b->radius * level);
+        far = -below_sum(-far, a->radius * level, b->radius * level);
     }
     r->lower = larger(near * up, -REAL_MAX);
     r->upper = far * up;
@@ -183,12 +191,12 @@ static int unanswered(const search *q, const result *r, const options *o, const 
                       const real weight[])
 {
     real near = g->radius * q->d.scale, margin = (real)(g->sign_only ? 8 : 32) * q->d.doubt + 16 * UNIT * near;
+    if (g->deep && upper < 0) return 0;
     if (r->lower <= 0 && r->upper > 0) return 1;
     if (g->sign_only && r->lower > 0) return 0;
     if (q->lower <= near + margin && upper >= near - margin) return 1;
     if (g->deep && q->lower <= margin) return 1;
     if (g->sign_only) return 0;
-    if (g->deep && upper <= 0) return 0;
     if (r->upper <= 0 && !g->deep) return q->s.n > DIM && peak(blend(&q->s, weight, offsetof(vertex, w), 1)) > 8 * UNIT;
     return o->tight || q->stuck || coarse(q, upper);
 }
@@ -224,7 +232,7 @@ static APART enum end tighten(search *q, const shape *a, const shape *b, const g
 static void answer(const search *q, const shape *a, const shape *b, const goal *g, real upper, const real weight[],
                    result *r)
 {
-    bracket(r, &q->d, q->lower, upper, g->radius);
+    bracket(r, &q->d, q->lower, upper, a, b);
     store(r->normal, q->normal);
     witness(r, q, weight, a, b, g->deep);
     r->value = 0;
@@ -249,21 +257,35 @@ static enum end take_further(search *q, const shape *a, const shape *b, const op
     return open ? ask_sister(q, a, b, o, g, r) : FAULT;
 }
 
+/* The middle of the bracket, the radii taken off, rounded once; 0 where the cores only touch. */
+static real middle(const search *q, const goal *g, real upper)
+{
+    real level = level_of(&q->d, g->radius, 0), down = level * q->d.unscale;
+    if (q->met && upper == 0 && !(q->lower < -4096 * UNIT * UNIT)) return -g->radius;
+    twin m = sum_of(q->lower / 2 * down, upper / 2 * down), r = sum_of(m.high, -g->radius * level);
+    return (r.high + (r.low + m.low)) * (1 / level);
+}
+
 /* The cores meet, or rounding leaves it open: the depth instead of the distance. */
 static APART enum end plumb(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
                             real weight[], result *r)
 {
-    real own[USUAL_ROOM];
-    polytope p = o->workspace ? polytope_in(o->workspace, tips_in(o->workspace_bytes)) : polytope_in(own, USUAL_TIPS);
+    usual_room own;
     goal here = scaled(g, q->d.scale);
+    depth d = {.q = q, .a = a, .b = b, .g = &here, .dropped.least = REAL_MAX};
+    d.p = o->workspace ? polytope_in(o->workspace, tips_in(o->workspace_bytes)) : polytope_in(&own, USUAL_TIPS);
     if (q->met) upper = smaller(upper, 0);
-    enum end end = fathom(q, a, b, &here, p, &upper, weight);
+    enum end end = fathom(&d, &upper, weight);
     if (end == FAULT || !(q->lower <= upper)) return FAULT;
-    bracket(r, &q->d, q->lower, upper, g->radius);
+    bracket(r, &q->d, q->lower, upper, a, b);
+    r->value = middle(q, g, upper);
+    if (d.settled) {
+        r->lower = d.ends[0];
+        r->value = d.ends[1];
+        r->upper = d.ends[2];
+    }
     store(r->normal, q->normal);
     witness(r, q, weight, a, b, 2);
-    int touching = q->met && upper == 0 && !(q->lower < -4096 * UNIT * UNIT);
-    r->value = touching ? -g->radius : r->lower / 2 + r->upper / 2;
     enum end further = g->exact || end == OPEN ? FAULT : take_further(q, a, b, o, g, upper, weight, r);
     return further == FAULT ? end : further;
 }
@@ -275,7 +297,7 @@ static void point_out_apart(search *q, const shape *a, const shape *b, const goa
 {
     if (r->lower <= 0) {
         bound_apart(q, a, b, g, weight, &upper);
-        bracket(r, &q->d, q->lower, upper, g->radius);
+        bracket(r, &q->d, q->lower, upper, a, b);
     }
     point_along_pair(q, a, b, g, weight);
     store(r->normal, q->normal);
@@ -411,6 +433,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
               .exact = EXACT && o.slack == 0 && has_corners(a) && has_corners(b),
               .deep = 1,
               .max_steps = (int)o.max_steps};
+    g.tight = g.exact && o.tight;
     if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
 
     enum end end = solve(&q, a, b, &o, &g, &r);

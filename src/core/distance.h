@@ -27,6 +27,7 @@ typedef struct goal {
     int sign_only;         /* stop at the first proof of the sign */
     int exact;             /* both sets' corners are known: the end of the search can be without rounding */
     int deep;              /* the depth is wanted, where they overlap */
+    int tight;             /* to the last place, if exact */
     int max_steps;
 } goal;
 

@@ -12,12 +12,22 @@
 #include "polytope.h"
 #include "tight.h"
 
+/* What the proof needs to know of some facets. */
+typedef struct tally {
+    int facets, proven;
+    real least, certain, doubtful;
+} tally;
+
 typedef struct depth {
     search *q;
     const shape *a, *b;
     const goal *g;
     polytope p;
     const facet *floor; /* the lowest facet, at the end */
+    tally dropped;      /* of facets that the surface has but the polytope no longer */
+    int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
+    real ends[3];       /* the bracket of the separation then, radii included, and the value */
+    vec normal;         /* that goes with it */
 } depth;
 
 static tip tip_of(const search *q, const vertex *c, int known)
@@ -157,7 +167,9 @@ static vec off_tips(const polytope *p, int i)
     n = reach_over(&p->tip[0], &p->tip[1]);
     n = (vec){{n.c[1], -n.c[0]}};
 #else
-    n = fine_cross(&p->tip[0], &p->tip[1], &p->tip[2]);
+    twin fine[3];
+    fine_cross(&p->tip[0], &p->tip[1], &p->tip[2], fine);
+    for (int k = 0; k < 3; k++) n.c[k] = fine[k].high;
 #endif
     return i == 0 ? unit_of(n, n) : axis(0, 0);
 }
@@ -166,7 +178,7 @@ static vec off_tips(const polytope *p, int i)
 static real rise_over_tips(const polytope *p, vec n, const tip *t)
 {
     real least = REAL_MAX;
-    for (int k = 0; k < p->tips; k++) least = smaller(rise(&p->tip[k], t, n), least);
+    for (int k = 0; k < p->tips; k++) least = smaller(rise(p, k, t, n), least);
     return larger(least, 0);
 }
 
@@ -215,52 +227,8 @@ static enum end first_surface(depth *d)
         enum end end = spread_out(d);
         if (p->tips == before) return end;
     }
-    put_simplex(p, turn_of(p));
+    put_first(p);
     return OPEN;
-}
-
-/* ---- growth ---- */
-
-/* Whether anything lies beyond the facet: its corner is taken in, or the facet is done. OPEN: there is no room. */
-static enum end look_beyond(depth *d, facet *f)
-{
-    tip t;
-    if (!ask_along(d, f->n, &t)) return FAULT;
-    if (!sees(&d->p, f, &t)) {
-        if (d->g->exact) fine_height(d, f->n, &t);
-        if (!d->g->exact || !sees(&d->p, f, &t)) {
-            f->done = 1;
-            return STILL;
-        }
-    }
-    return grow(&d->p, f, &t) ? STILL : OPEN;
-}
-
-/* The bracket is as narrow as asked. */
-static int close_enough(const depth *d, const facet *f)
-{
-    const goal *g = d->g;
-    if (!(g->abs_tol > 0) && !(g->rel_tol > 0)) return 0;
-    real lower = d->q->lower, upper = -f->height + d->q->d.doubt;
-    real asked = g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
-    return upper - lower <= asked;
-}
-
-/* STILL: nothing lies beyond the lowest facet. CLOSE: as tight as asked. OPEN: steps or workspace are used up. */
-static enum end deepen(depth *d)
-{
-    for (;;) {
-        facet *f = lowest(&d->p);
-        d->floor = f;
-        if (f->done) return STILL;
-        if (close_enough(d, f)) return CLOSE;
-        if (d->q->steps >= d->g->max_steps) return OPEN;
-        enum end end = look_beyond(d, f);
-        if (end != STILL) {
-            d->floor = lowest(&d->p);
-            return end;
-        }
-    }
 }
 
 /* ---- the proof ---- */
@@ -290,182 +258,103 @@ static real floor_of(const depth *d, const facet *f)
     return h.high - 2 * UNIT * size(h.high) + h.low - 256 * UNIT * UNIT;
 }
 
-/* Whether the surface goes around the origin. All facets are off it, on their outer side; then how often the surface
- * goes around is the sum of the solid angles under which the origin sees them, and whole. A facet whose side is certain
- * counts for more than 0. One too narrow to tell counts for little, either way. */
-static int surrounds(const depth *d)
+/* Counts the facet: how low it is, and the solid angle under which the origin sees it. A facet whose side is certain
+ * counts for more than 0; one too narrow to tell counts for little, either way. */
+static void count_in(const depth *d, const facet *f, tally *t)
 {
     const polytope *p = &d->p;
-    real certain = 0, doubtful = 0;
-    int proven = 0; /* to be on the inner side, without rounding */
-    for (int k = 0; k < p->facets; k++) {
-        const facet *f = &p->facet[k];
-        real far = 0, long_edge = 0;
-        for (int i = 0; i < DIM; i++) {
-            vec e = reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]]);
-            far = larger(length(p->tip[f->v[i]].w), far);
-            long_edge = larger(length(e), long_edge);
-        }
-        int thin;
-        real area = length(outward(p, f, &thin)), square = DIM == 2 ? long_edge : long_edge * long_edge;
-        if (area * f->height > 16 * UNIT * square * far) {
-            certain += area * f->height / (DIM == 2 ? far * far : far * far * far) / 4;
-            continue;
-        }
-        int side = d->g->exact ? inner_side(d, f) : -1;
-        proven += side > 0;
-        if (side < 0) doubtful += (area + 16 * UNIT * square) / (DIM == 2 ? f->height : f->height * f->height);
+    real far = 0, long_edge = 0;
+    int thin;
+    t->facets++;
+    if (f->height - 64 * UNIT - d->q->d.doubt < t->least) t->least = smaller(floor_of(d, f), t->least);
+    for (int i = 0; i < DIM; i++) {
+        vec e = reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]]);
+        far = larger(length(p->tip[f->v[i]].w), far);
+        long_edge = larger(length(e), long_edge);
     }
-    return certain > 2 * doubtful || (proven > 0 && doubtful == 0);
-}
-
-/* Bounds of what is known of the separation of the cores, to rounding; with known corners to next to none. */
-static void bound(depth *d, real *upper)
-{
-    search *q = d->q;
-    real least = REAL_MAX;
-    for (int k = 0; k < d->p.facets; k++) {
-        const facet *f = &d->p.facet[k];
-        if (f->height - 64 * UNIT - q->d.doubt < least) least = smaller(floor_of(d, f), least);
-    }
-    if (d->p.facets > 0 && least > 0 && surrounds(d)) *upper = smaller(*upper, -least);
-    if (d->g->exact) bound_along(d, d->floor ? d->floor->n : q->normal);
-}
-
-/* Bounds of cores that are apart and known by their corners, to next to no rounding: for shapes whose radii overlap.
- * From above: the one pair of points that the weights single out. Each is the first corner and shares of the ways from
- * there: off the set by no more than what rounds on these. */
-static void bound_apart(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1],
-                        real *upper)
-{
-    depth d = {.q = q, .a = a, .b = b, .g = g};
-    vec low, high = single_out(q, weight, &low);
-    real off = 0;
-    for (int i = 1; i < q->s.n; i++) {
-        vec x = sub(corner(&q->s, i)->x, corner(&q->s, 0)->x), y = sub(corner(&q->s, i)->y, corner(&q->s, 0)->y);
-        off += weight[i] * (spread(place(&q->d.a, x)) + spread(place(&q->d.b, y)));
-    }
-    *upper = smaller(*upper, length(add(high, low)) * (1 + 8 * UNIT) + 8 * UNIT * off);
-    bound_along(&d, q->normal);
-}
-
-/* The normal along the closest pair of cores that are apart and known by their corners: as good as the pair is, where
- * the direction of the best bound is only as good as that bound. Left as it is where it proves less. */
-static void point_along_pair(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1])
-{
-    depth d = {.q = q, .a = a, .b = b, .g = g};
-    vec low, high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low)), normal = q->normal;
-    real lower = q->lower;
-    if (!(length(v) > 0)) return;
-    q->lower = -REAL_MAX;
-    bound_along(&d, mul(v, -1 / length(v)));
-    if (!(q->lower >= lower - 8 * UNIT * lower)) q->normal = normal;
-    q->lower = lower;
-}
-
-/* In the lowest facet's plane, as far as rounding can tell. */
-static int is_level(const depth *d, const tip *t)
-{
-    return size(height_of(t, d->floor->n) - d->floor->height) <= 32 * UNIT;
-}
-
-/* Of the body's corners that are as far along n as any, to rounding, the one farthest along aside. */
-static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
-{
-    vec best = axis(0, 0), up = k->posed ? pull(k->m, n) : n, out = k->posed ? pull(k->m, aside) : aside;
-    real top = -REAL_MAX, most = -REAL_MAX;
-    size_t count = count_corners(s);
-    for (size_t i = 0; i < count; i++) top = larger(dot(mul(nth_corner(s, i), k->grain), up), top);
-    for (size_t i = 0; i < count; i++) {
-        vec c = mul(nth_corner(s, i), k->grain);
-        if (!(dot(c, up) >= top - 16 * UNIT) || !(dot(c, out) > most)) continue;
-        most = dot(c, out);
-        best = nth_corner(s, i);
-    }
-    return best;
-}
-
-/* Of what is level the corner least along v: of all known corners, else of the tips. */
-static tip level_tip(const depth *d, vec v)
-{
-    tip best = d->p.tip[d->floor->v[0]];
-    if (d->g->exact) {
-        vertex c;
-        c.x = corner_aside(&d->q->d.a, d->a, d->floor->n, mul(v, -1));
-        c.y = corner_aside(&d->q->d.b, d->b, mul(d->floor->n, -1), v);
-        c.w = corner_of(&d->q->d, c.x, c.y);
-        return tip_of(d->q, &c, 1);
-    }
-    for (int k = 0; k < d->p.tips; k++)
-        if (is_level(d, &d->p.tip[k]) && dot(v, d->p.tip[k].w) < dot(v, best.w)) best = d->p.tip[k];
-    return best;
-}
-
-static void take_tip(simplex *s, const tip *t, vec foot)
-{
-    vertex *c = spare(s);
-    c->w = sub(t->w, foot);
-    c->x = t->x;
-    c->y = t->y;
-    s->n++;
-}
-
-/* The lowest point of the surface as a blend of tips: where the lowest facet's plane is nearest the origin. A face of
- * more than DIM corners is several facets, so that point is sought among all that is level, as the origin is in a
- * search.
- */
-static void hand_over(const depth *d, real weight[DIM + 1])
-{
-    search *q = d->q;
-    vec foot = mul(d->floor->n, d->floor->height), v;
-    simplex *s = &q->s;
-    clear(s);
-    take_tip(s, &d->p.tip[d->floor->v[0]], foot);
-    v = point(s, 0);
-    for (int i = 0; i < USUAL_TIPS && dot(v, v) > UNIT * UNIT / 4; i++) {
-        tip t = level_tip(d, v);
-        simplex before = *s;
-        if (!is_level(d, &t) || !(dot(v, sub(t.w, foot)) < dot(v, v))) break;
-        take_tip(s, &t, foot);
-        vec better = nearest_of_all(s, 0, s->n <= DIM, 0);
-        if (!(dot(better, better) < dot(v, v))) {
-            *s = before;
-            break;
-        }
-        v = better;
-    }
-    weigh(s, weight);
-}
-
-/* The normal goes with the lowest facet, where that says as much as any direction asked: of several that are equal, one
- * for normal and points alike. */
-static void point_out(depth *d)
-{
-    search *q = d->q;
-    real best = q->lower;
-    if (!d->g->exact) {
-        q->normal = d->floor->n;
+    real area = length(outward(p, f, &thin)), square = DIM == 2 ? long_edge : long_edge * long_edge;
+    if (area * f->height > 16 * UNIT * square * far) {
+        t->certain += area * f->height / (DIM == 2 ? far * far : far * far * far) / 4;
         return;
     }
-    vec normal = q->normal;
-    q->lower = -REAL_MAX;
-    bound_along(d, d->floor->n);
-    if (!(q->lower >= best - 16 * UNIT)) q->normal = normal;
-    q->lower = larger(q->lower, best);
+    int side = d->g->exact ? inner_side(d, f) : -1;
+    t->proven += side > 0;
+    if (side < 0) t->doubtful += (area + 16 * UNIT * square) / (DIM == 2 ? f->height : f->height * f->height);
 }
 
-/* The cores meet, or nearly so: how deep. */
-static APART enum end fathom(search *q, const shape *a, const shape *b, const goal *g, polytope p, real *upper,
-                             real weight[DIM + 1])
+/* Whether the surface goes around the origin, if all facets are off it, on their outer side: then how often it does is
+ * the sum of the solid angles under which the origin sees them, and whole. */
+static int surrounds(const tally *t) { return t->certain > 2 * t->doubtful || (t->proven > 0 && t->doubtful == 0); }
+
+/* Bounds of what is known of the separation of the cores, to rounding; with known corners to next to none. Whether the
+ * surface is proven to go around the origin. */
+static int bound(depth *d, real *upper)
 {
-    depth d = {.q = q, .a = a, .b = b, .g = g, .p = p};
-    enum end end = first_surface(&d);
-    if (end == OPEN && d.p.facets > 0) end = deepen(&d);
-    if (end == FAULT) return end;
-    bound(&d, upper);
-    if (d.floor && d.floor->done) point_out(&d);
-    if (d.floor) hand_over(&d, weight);
-    return end;
+    tally all = d->dropped;
+    for (int k = 0; k < d->p.facets; k++) count_in(d, &d->p.facet[k], &all);
+    int proven = all.facets > 0 && (d->settled || all.least > 0) && surrounds(&all);
+    if (proven && all.least > 0) *upper = smaller(*upper, -all.least);
+    if (d->g->exact) bound_along(d, d->floor ? d->floor->n : d->q->normal);
+    return proven;
+}
+
+/* ---- growth ---- */
+
+/* With what the facet's own direction proves, lower, the bracket is as narrow as asked, or as rounding allows where the
+ * corners are not known without it. */
+static int close_enough(const depth *d, const facet *f, real lower)
+{
+    const goal *g = d->g;
+    real doubt = d->q->d.doubt, upper = -f->height + doubt;
+    if (!g->exact && upper - lower <= 3 * doubt + d->q->d.slack) return 1;
+    if (!(g->abs_tol > 0) && !(g->rel_tol > 0)) return 0;
+    real asked = g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
+    return upper - lower <= asked;
+}
+
+/* Whether anything lies beyond the facet: its corner is taken in, or the facet is done. CLOSE: what lies there is of no
+ * account; the bound from below is the facet's own then. OPEN: there is no room. */
+static enum end look_beyond(depth *d, facet *f)
+{
+    tip t;
+    search *q = d->q;
+    real best = q->lower;
+    vec normal = q->normal;
+    q->lower = -REAL_MAX;
+    if (!ask_along(d, f->n, &t)) return FAULT;
+    if (close_enough(d, f, q->lower)) return CLOSE;
+    if (q->lower < best) {
+        q->lower = best;
+        q->normal = normal;
+    }
+    if (d->g->exact && !sees(&d->p, f, &t)) fine_height(d, f->n, &t);
+    enum growth grown = sees(&d->p, f, &t) ? grow(&d->p, f, &t) : LOWERED;
+    if (grown == LOWERED) f->done = 1;
+    return grown == FULL ? OPEN : STILL;
+}
+
+/* Drops what lies above the bound from below, which the depth does not. */
+static void make_room(depth *d)
+{
+    mark_above(&d->p, -d->q->lower);
+    for (int k = 0; k < d->p.facets; k++)
+        if (d->p.facet[k].gone) count_in(d, &d->p.facet[k], &d->dropped);
+    sweep(&d->p);
+    forget_tips(&d->p);
+}
+
+/* STILL: nothing lies beyond the lowest facet. CLOSE: as tight as asked. OPEN: steps or workspace are used up. */
+static enum end deepen(depth *d)
+{
+    for (;;) {
+        if (d->p.tips == d->p.most_tips) make_room(d);
+        facet *f = lowest(&d->p);
+        d->floor = f;
+        if (f->done) return STILL;
+        if (d->q->steps >= d->g->max_steps) return OPEN;
+        enum end end = look_beyond(d, f);
+        if (end != STILL) return end;
+    }
 }
 
 #endif

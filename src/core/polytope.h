@@ -3,7 +3,8 @@
  * outward. It grows by one corner at a time: the facets that see the corner give way to facets from their rim to it.
  * Only that the surface is closed is ever relied on, and that is so by the way it is made: what is taken out and what
  * is put in have the same rim, whatever rounding says of who sees whom. Whether it surrounds the origin is proven at
- * the end. The memory is the caller's. */
+ * the end. Facets that are high enough may be dropped, after they have been counted: they are never taken out again, so
+ * the others and they are a closed surface still. The memory is the caller's. */
 #ifndef GJK_CORE_POLYTOPE_H
 #define GJK_CORE_POLYTOPE_H
 
@@ -12,7 +13,7 @@
 
 #define FEWEST_TIPS 8
 #define USUAL_TIPS 64
-#define MOST_TIPS 16384
+#define MOST_TIPS 16000 /* 16 bits count the facets */
 
 /* A corner of the polytope. */
 typedef struct tip {
@@ -21,55 +22,63 @@ typedef struct tip {
 } tip;
 
 typedef struct facet {
-    vec n;          /* unit to rounding, outward; of a facet without area any unit vector */
-    real height;    /* along n, the least of its corners' */
-    int16_t v[DIM]; /* tips, counterclockwise from outside */
-    int16_t done;   /* nothing lies beyond it */
-    int16_t gone;   /* it makes room for the corner that is being taken in */
-    int16_t thin;   /* it has no area to speak of, and its normal is noise */
+    vec n;             /* unit to rounding, outward; of a facet without area any unit vector */
+    real height;       /* along n, the least of its corners' */
+    int16_t v[DIM];    /* tips, counterclockwise from outside */
+    int16_t next[DIM]; /* the facets across its seams; WALL: one that was dropped */
+    signed char done;  /* nothing lies beyond it */
+    signed char gone;  /* it makes room for the corner that is being taken in */
+    signed char thin;  /* it has no area to speak of, and its normal is noise */
 } facet;
 
-/* The rim of what is gone: in space an edge, from a tip to a tip; in the plane a tip, and whether a facet ended there.
- */
+#define WALL (-1)
+#define ALONE (-2) /* until the other side is found */
+
+/* Where two facets meet, as one of them sees it: in space an edge, from a tip to a tip; in the plane a tip, and whether
+ * the facet ends there. */
 typedef struct seam {
     int16_t v[2];
+    int16_t of, next; /* the facet, and that across it */
 } seam;
 
 typedef struct polytope {
     tip *tip;
     facet *facet;
-    seam *rim;
+    seam *rim; /* of what is gone */
     int tips, facets, rims, most_tips, most_facets;
+    real noise;                                                /* what rounding may have put into a tip */
+    int fine;                                                  /* tips are known to twice the digits */
+    int (*side)(const void *of, const facet *f, const tip *t); /* on which side of the facet t is, without rounding */
+    const void *of;                                            /* NULL, both: that is not asked */
 } polytope;
 
-/* A closed surface of triangles has so many; of edges, no more than it has tips. */
-static inline size_t facets_for(size_t tips) { return DIM == 2 ? tips : 2 * tips - 4; }
+/* A closed surface of triangles has 2 tips - 4, of edges as many as tips; and some more, which are put in before others
+ * are taken out. */
+#define FACETS_FOR(tips) (DIM == 2 ? (tips) + 2 : 2 * (tips) + 4)
+
+/* As polytope_in lays it out. */
+typedef struct usual_room {
+    tip tip[USUAL_TIPS];
+    facet facet[FACETS_FOR(USUAL_TIPS)];
+    seam rim[FACETS_FOR(USUAL_TIPS)];
+} usual_room;
 
 static inline size_t bytes_for(size_t tips)
 {
-    return tips * sizeof(tip) + facets_for(tips) * (sizeof(facet) + DIM * sizeof(seam));
+    return tips * sizeof(tip) + FACETS_FOR(tips) * (sizeof(facet) + sizeof(seam));
 }
 
 /* How many go into so many bytes, which are enough for a few. */
 static inline size_t tips_in(size_t bytes)
 {
-    size_t facet_bytes = sizeof(facet) + DIM * sizeof(seam);
-    size_t tips =
-        DIM == 2 ? bytes / (sizeof(tip) + facet_bytes) : (bytes + 4 * facet_bytes) / (sizeof(tip) + 2 * facet_bytes);
+    size_t tips = (bytes - bytes_for(0)) / (bytes_for(1) - bytes_for(0));
     return tips < MOST_TIPS ? tips : MOST_TIPS;
 }
-
-/* Of the usual number, in numbers. */
-#define USUAL_ROOM                                                                                                     \
-    ((USUAL_TIPS * sizeof(tip) +                                                                                       \
-      (DIM == 2 ? USUAL_TIPS : 2 * USUAL_TIPS - 4) * (sizeof(facet) + DIM * sizeof(seam))) /                           \
-         sizeof(real) +                                                                                                \
-     1)
 
 /* With room for so many tips; none but the counts is set. */
 static polytope polytope_in(void *workspace, size_t tips)
 {
-    polytope p = {.tip = workspace, .most_tips = (int)tips, .most_facets = (int)facets_for(tips)};
+    polytope p = {.tip = workspace, .most_tips = (int)tips, .most_facets = (int)FACETS_FOR(tips)};
     p.facet = (facet *)(void *)(p.tip + tips);
     p.rim = (seam *)(void *)(p.facet + p.most_facets);
     return p;
@@ -98,6 +107,17 @@ static real least_height(const polytope *p, const facet *f, vec n)
     return least;
 }
 
+/* From tip to tip, without rounding. */
+static void fine_reach(const tip *from, const tip *to, twin r[DIM])
+{
+    for (int i = 0; i < DIM; i++) {
+        r[i] = sum_of(to->w.c[i], -from->w.c[i]);
+        gather(&r[i], (twin){to->low.c[i], 0});
+        gather(&r[i], (twin){-from->low.c[i], 0});
+        r[i] = sum_of(r[i].high, r[i].low);
+    }
+}
+
 #if DIM == 2
 /* Square to the edge, to the right of it. */
 static vec outward(const polytope *p, const facet *f, int *thin)
@@ -106,32 +126,38 @@ static vec outward(const polytope *p, const facet *f, int *thin)
     *thin = 0;
     return (vec){{e.c[1], -e.c[0]}};
 }
-#else
-/* From tip to tip, without rounding. */
-static twin fine_reach(const tip *from, const tip *to, int i)
-{
-    twin r = sum_of(to->w.c[i], -from->w.c[i]);
-    gather(&r, (twin){to->low.c[i], 0});
-    gather(&r, (twin){-from->low.c[i], 0});
-    return sum_of(r.high, r.low);
-}
 
-/* The normal of a narrow triangle, which rounded edges leave to noise. */
-static vec fine_cross(const tip *at, const tip *first, const tip *second)
+/* The normal of the facet to twice the digits, from its corner k. Returns how long edges are that it is made of. */
+static real fine_outward(const polytope *p, const facet *f, int k, twin n[2])
+{
+    twin e[2];
+    fine_reach(&p->tip[f->v[0]], &p->tip[f->v[1]], e);
+    n[0] = e[1];
+    n[1] = (twin){-e[0].high, -e[0].low};
+    return k >= 0;
+}
+#else
+/* The normal of a triangle to twice the digits. Returns how long the edges are that it is made of. */
+static real fine_cross(const tip *at, const tip *first, const tip *second, twin n[3])
 {
     twin a[3], b[3];
-    vec n;
-    for (int i = 0; i < 3; i++) {
-        a[i] = fine_reach(at, first, i);
-        b[i] = fine_reach(at, second, i);
-    }
+    real edges = 0;
+    fine_reach(at, first, a);
+    fine_reach(at, second, b);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        twin r = product_of_twins(a[j], b[k]), back = product_of_twins(a[k], b[j]);
-        gather(&r, (twin){-back.high, -back.low});
-        n.c[i] = r.high + r.low;
+        twin back = product_of_twins(a[k], b[j]);
+        n[i] = product_of_twins(a[j], b[k]);
+        gather(&n[i], (twin){-back.high, -back.low});
+        n[i] = sum_of(n[i].high, n[i].low);
+        edges += size(a[i].high) + size(b[i].high);
     }
-    return n;
+    return edges;
+}
+
+static real fine_outward(const polytope *p, const facet *f, int k, twin n[3])
+{
+    return fine_cross(&p->tip[f->v[k]], &p->tip[f->v[(k + 1) % 3]], &p->tip[f->v[(k + 2) % 3]], n);
 }
 
 /* From the two shorter edges, which meet in corner k. */
@@ -144,17 +170,23 @@ static vec outward(const polytope *p, const facet *f, int *thin)
     k = (k + 2) % 3;
     vec a = e[k], b = mul(e[(k + 2) % 3], -1), n = cross(a, b);
     real size = dot(a, a) * dot(b, b);
-    if (!(dot(n, n) > (real)0.25 * size))
-        n = fine_cross(&p->tip[f->v[k]], &p->tip[f->v[(k + 1) % 3]], &p->tip[f->v[(k + 2) % 3]]);
-    *thin = !(dot(n, n) > 64 * UNIT * UNIT * UNIT * size);
+    if (!(dot(n, n) > (real)0.25 * size)) { /* a narrow one, which rounded edges leave to noise */
+        twin fine[3];
+        fine_outward(p, f, k, fine);
+        for (int i = 0; i < 3; i++) n.c[i] = fine[i].high;
+    }
+    *thin = !(dot(n, n) > 64 * UNIT * UNIT * UNIT * size) || !(length(n) > p->noise * length(e[(k + 1) % 3]));
     return n;
 }
 
+/* The point of the edge that is nearest the origin: inside the edge square to it, to all digits. */
 static vec nearest_of_edge(const tip *a, const tip *b)
 {
-    vec e = reach_over(a, b);
-    real t = -dot(a->w, e) / dot(e, e);
-    return t > 0 && t < 1 ? add(a->w, mul(e, t)) : !(t > 0) ? a->w : b->w;
+    vec e = reach_over(a, b), near = a->w;
+    real square = dot(e, e), t = -dot(a->w, e) / square;
+    if (!(t > 0 && t < 1)) return t > 0 ? b->w : a->w;
+    near = add(add(near, mul(e, t)), a->low);
+    return sub(near, mul(e, dot(near, e) / square));
 }
 
 /* A triangle without area to speak of has no normal; the way to its nearest point will do. */
@@ -170,87 +202,109 @@ static void straighten(const polytope *p, facet *f)
 }
 #endif
 
-/* Takes the facet between these tips in. */
-static void put_facet(polytope *p, const int16_t v[DIM])
+/* Takes the facet between these tips in. Returns its height. */
+static real put_facet(polytope *p, const int16_t v[DIM])
 {
     facet *f = &p->facet[p->facets++];
-    for (int i = 0; i < DIM; i++) f->v[i] = v[i];
+    for (int i = 0; i < DIM; i++) {
+        f->v[i] = v[i];
+        f->next[i] = ALONE;
+    }
     f->done = f->gone = 0;
     int thin;
     f->n = unit_of(outward(p, f, &thin), p->tip[v[0]].w);
-    f->thin = (int16_t)thin;
+    f->thin = (signed char)thin;
     f->height = least_height(p, f, f->n);
 #if DIM == 3
     if (thin) straighten(p, f);
 #endif
+    return f->height;
 }
 
-/* How far t lies beyond a tip along n; 0 where rounding leaves that open: of the sum, and of tips in a frame of size 1
- * to 2, which are known to twice the digits at best. */
-static real rise(const tip *from, const tip *t, vec n)
+/* How far t lies beyond a tip along n; 0 where rounding leaves that open. */
+static real rise(const polytope *p, int from, const tip *t, vec n)
 {
-    vec e = reach_over(from, t);
+    vec e = reach_over(&p->tip[from], t);
     real r = dot(n, e);
-    return size(r) > 4 * UNIT * dot_size(n, e) + 32 * UNIT * UNIT ? r : 0;
+    return size(r) > 4 * UNIT * dot_size(n, e) + p->noise ? r : 0;
 }
 
-/* Whether t lies beyond all corners of the facet, for certain. */
-static int sees(const polytope *p, const facet *f, const tip *t)
+static int nearest_corner(const polytope *p, const facet *f, const tip *t)
 {
-    for (int i = 0; i < DIM; i++)
-        if (!(rise(&p->tip[f->v[i]], t, f->n) > 0)) return 0;
-    return 1;
-}
-
-/* Whether t lies behind all corners of the facet, for certain. */
-static int is_behind(const polytope *p, const facet *f, const tip *t)
-{
-    for (int i = 0; i < DIM; i++)
-        if (!(rise(&p->tip[f->v[i]], t, f->n) < 0)) return 0;
-    return 1;
-}
-
-/* The seams of a facet, each in the form in which its neighbour there has the opposite one. */
-static seam seam_of(const facet *f, int i)
-{
-#if DIM == 2
-    return (seam){{f->v[i], (int16_t)i}};
-#else
-    return (seam){{f->v[i], f->v[(i + 1) % 3]}};
-#endif
-}
-
-static seam opposite(seam s)
-{
-#if DIM == 2
-    return (seam){{s.v[0], (int16_t)(1 - s.v[1])}};
-#else
-    return (seam){{s.v[1], s.v[0]}};
-#endif
-}
-
-static int same_seam(seam a, seam b) { return a.v[0] == b.v[0] && a.v[1] == b.v[1]; }
-
-/* Takes the facet out, once t is in: its seams are on the rim, but for those that were. */
-static void take_out(polytope *p, facet *f)
-{
-    f->gone = 1;
+    real near = REAL_MAX;
+    int k = 0;
     for (int i = 0; i < DIM; i++) {
-        seam s = seam_of(f, i);
-        int k = 0;
-        while (k < p->rims && !same_seam(p->rim[k], opposite(s))) k++;
-        p->rim[k] = k < p->rims ? p->rim[p->rims - 1] : s;
-        p->rims += k < p->rims ? -1 : 1;
+        real way = spread(reach_over(&p->tip[f->v[i]], t));
+        if (!(way < near)) continue;
+        near = way;
+        k = i;
     }
+    return k;
 }
 
-/* The facet across the seam that is still standing. */
-static facet *across_seam(const polytope *p, seam s)
+/* How far t lies beyond the facet, or below 0 behind it; 0 where rounding leaves that open. From the nearest corner,
+ * where the normal's own roundings count least; a thin facet has no plane, it is below t where all its corners are. */
+static real rise_over(const polytope *p, const facet *f, const tip *t)
 {
-    for (int k = 0; k < p->facets; k++)
-        for (int i = 0; i < DIM && !p->facet[k].gone; i++)
-            if (same_seam(seam_of(&p->facet[k], i), opposite(s))) return &p->facet[k];
-    return NULL;
+    if (!f->thin) return rise(p, f->v[nearest_corner(p, f, t)], t, f->n);
+    real most = -REAL_MAX, least = REAL_MAX;
+    for (int i = 0; i < DIM; i++) {
+        real here = rise(p, f->v[i], t, f->n);
+        least = smaller(here, least);
+        most = larger(here, most);
+    }
+    return least > 0 ? least : most < 0 ? most : 0;
+}
+
+static int sees(const polytope *p, const facet *f, const tip *t) { return rise_over(p, f, t) > 0; }
+
+/* On which side of the facet's plane t is, to twice the digits: of the sign. */
+static real fine_side(const polytope *p, const facet *f, const tip *t)
+{
+    int k = nearest_corner(p, f, t);
+    twin n[DIM], e[DIM], sum = {0, 0};
+    real long_edges = fine_outward(p, f, k, n), tall = 0, far = 0;
+    fine_reach(&p->tip[f->v[k]], t, e);
+    for (int i = 0; i < DIM; i++) {
+        gather(&sum, product_of_twins(n[i], e[i]));
+        tall += size(n[i].high);
+        far += size(e[i].high);
+    }
+    real side = sum.high + sum.low;
+    return size(side) > p->noise * (tall + 4 * far * long_edges) ? side : 0;
+}
+
+static seam seam_of(const polytope *p, int at, int i)
+{
+    const facet *f = &p->facet[at];
+    return (seam){{f->v[i], DIM == 2 ? (int16_t)i : f->v[(i + 1) % DIM]}, (int16_t)at, f->next[i]};
+}
+
+/* Whether they are the two sides of one. */
+static int meet_in(seam a, seam b)
+{
+    return DIM == 2 ? a.v[0] == b.v[0] && a.v[1] != b.v[1] : a.v[0] == b.v[1] && a.v[1] == b.v[0];
+}
+
+/* Takes the facet out, once t is in: its seams are on the rim, behind those that have been looked across; but for those
+ * that were there, which it has in common with others that are out. */
+static void take_out(polytope *p, int at, int *looked)
+{
+    p->facet[at].gone = 1;
+    for (int i = 0; i < DIM; i++) {
+        seam s = seam_of(p, at, i);
+        int k = 0;
+        while (k < p->rims && !meet_in(p->rim[k], s)) k++;
+        if (k == p->rims) {
+            p->rim[p->rims++] = s;
+            continue;
+        }
+        if (k < *looked) {
+            p->rim[k] = p->rim[--*looked];
+            k = *looked;
+        }
+        p->rim[k] = p->rim[--p->rims];
+    }
 }
 
 /* Of a t in the facet's plane, whether it is on the same side of the seam as the facet is. */
@@ -265,48 +319,165 @@ static int is_on_side(const polytope *p, const facet *f, seam s, const tip *t)
 #endif
 }
 
-/* Whether the facet next to the rim goes too: t sees it; or, as far as rounding can tell, is in its plane, and a new
- * facet from the seam to t would lie on it, folded back; or it has no plane. */
-static int goes_too(const polytope *p, const facet *f, seam s, const tip *t)
+/* On which side of the facet t is, as well as can be told: of the sign. The facet's normal is off by some roundings,
+ * which count by how far t is from the nearest corner. */
+static real side_of(const polytope *p, const facet *f, const tip *t)
 {
-    if (f->thin || sees(p, f, t)) return 1;
-    return !is_behind(p, f, t) && is_on_side(p, f, s, t);
+    real r = rise_over(p, f, t);
+    if (!p->fine) return r;
+    vec e = reach_over(&p->tip[f->v[nearest_corner(p, f, t)]], t);
+    if (!(size(r) > 16 * UNIT * spread(e))) r = fine_side(p, f, t);
+    return r == 0 && p->side ? (real)p->side(p->of, f, t) : r;
 }
 
-static void put_facet_on(polytope *p, seam r, int t)
+/* Whether the facet next to the rim goes too: t sees it; or, as far as can be told, is in its plane, and a new facet
+ * from the seam to t would lie on it, folded back. */
+static int goes_too(const polytope *p, const facet *f, seam s, const tip *t)
+{
+    real r = side_of(p, f, t);
+    return r > 0 || (r == 0 && is_on_side(p, f, s, t));
+}
+
+static real put_facet_on(polytope *p, seam r, int t)
 {
 #if DIM == 2
     int16_t v[2] = {r.v[1] ? (int16_t)t : r.v[0], r.v[1] ? r.v[0] : (int16_t)t};
 #else
     int16_t v[3] = {r.v[0], r.v[1], (int16_t)t};
 #endif
-    put_facet(p, v);
+    return put_facet(p, v);
 }
 
-/* Takes in a corner that lies beyond the facet. 0, and nothing changed: there is no room for it. */
-static int grow(polytope *p, facet *f, const tip *t)
+/* Marks what t takes the place of: the facet, and around it all that go too. Their rim is what new facets start from:
+ * each facet after the first adds one seam to it at most. */
+static void clear_way(polytope *p, int from, const tip *t)
 {
-    int gone = 1;
+    int looked = 0;
     p->rims = 0;
-    take_out(p, f);
-    for (int k = 0; k < p->rims; k++) {
-        facet *next = across_seam(p, p->rim[k]);
-        if (!next || !goes_too(p, next, p->rim[k], t)) continue;
-        take_out(p, next);
-        gone++;
-        k = -1;
+    take_out(p, from, &looked);
+    while (looked < p->rims) {
+        seam s = p->rim[looked];
+        if (s.next != WALL && goes_too(p, &p->facet[s.next], s, t)) take_out(p, s.next, &looked);
+        else looked++;
     }
-    int full = p->tips == p->most_tips || p->rims == 0 || p->facets - gone + p->rims > p->most_facets, kept = 0;
+}
+
+/* The facet across seam i is to know this one by its place; so far it knows it, or one that is gone, by another. */
+static void tell_next(polytope *p, int at, int i, int before)
+{
+    seam s = seam_of(p, at, i);
+    if (s.next == WALL) return;
+    for (int k = 0; k < DIM; k++) {
+        seam back = seam_of(p, s.next, k);
+        if (back.next != before || !meet_in(back, s)) continue;
+        p->facet[s.next].next[k] = (int16_t)at;
+        return;
+    }
+}
+
+/* A facet that was put on the rim takes the place there of the one that is gone. */
+static void tie_to_rim(polytope *p, int at, seam r)
+{
+    int i = DIM == 2 ? r.v[1] : 0;
+    p->facet[at].next[i] = r.next;
+    tell_next(p, at, i, r.of);
+}
+
+/* The first seam of a facet that is still alone and meets s; DIM: there is none. */
+static int match(const polytope *p, int of, seam s)
+{
+    for (int k = 0; k < DIM; k++) {
+        seam other = seam_of(p, of, k);
+        if (other.next == ALONE && meet_in(other, s)) return k;
+    }
+    return DIM;
+}
+
+/* Finds for each seam of these facets that is still alone the other side of it, among them. */
+static void join_all(polytope *p, int from, int end)
+{
+    for (int a = from; a < end; a++)
+        for (int i = 0; i < DIM; i++)
+            for (int b = a + 1; b < end && p->facet[a].next[i] == ALONE; b++) {
+                int k = match(p, b, seam_of(p, a, i));
+                if (k == DIM) continue;
+                p->facet[a].next[i] = (int16_t)b;
+                p->facet[b].next[k] = (int16_t)a;
+            }
+}
+
+/* Drops the facets that are marked; the last ones move to their places. */
+static void sweep(polytope *p)
+{
     for (int k = 0; k < p->facets; k++) {
-        if (full) p->facet[k].gone = 0;
-        if (!p->facet[k].gone) p->facet[kept++] = p->facet[k];
+        while (p->facets > k && p->facet[p->facets - 1].gone) p->facets--;
+        if (k >= p->facets || !p->facet[k].gone) continue;
+        p->facet[k] = p->facet[--p->facets];
+        for (int i = 0; i < DIM; i++) tell_next(p, k, i, p->facets);
     }
-    p->facets = kept;
-    if (full) return 0;
+}
+
+enum growth { GROWN, FULL, LOWERED };
+
+/* Takes in a corner that lies beyond the facet, the lowest. FULL: there is no room for it. LOWERED: a surface that goes
+ * around the origin never gets lower by what lies beyond it, so this is noise. Either way nothing has changed. */
+static enum growth grow(polytope *p, facet *f, const tip *t)
+{
+    int before = p->facets;
+    real height = f->height, least = REAL_MAX;
+    if (p->tips == p->most_tips || before + 2 > p->most_facets) return FULL;
+    clear_way(p, (int)(f - p->facet), t);
+    enum growth end = p->rims == 0 ? LOWERED : before + p->rims > p->most_facets ? FULL : GROWN;
     p->tip[p->tips] = *t;
-    for (int k = 0; k < p->rims; k++) put_facet_on(p, p->rim[k], p->tips);
+    for (int k = 0; k < p->rims && end == GROWN; k++) least = smaller(put_facet_on(p, p->rim[k], p->tips), least);
+    if (end == GROWN && height > 0 && !(least >= height - 64 * UNIT)) end = LOWERED;
+    if (end != GROWN) {
+        p->facets = before;
+        for (int k = 0; k < p->facets; k++) p->facet[k].gone = 0;
+        return end;
+    }
     p->tips++;
-    return 1;
+    for (int k = 0; k < p->rims; k++) tie_to_rim(p, before + k, p->rim[k]);
+    join_all(p, before, p->facets);
+    sweep(p);
+    return GROWN;
+}
+
+/* Marks the facets above some height that have no corner in common with one below. */
+static void mark_above(polytope *p, real height)
+{
+    seam *near = p->rim; /* there is a seam for each tip */
+    for (int i = 0; i < p->tips; i++) near[i].v[0] = 0;
+    for (int k = 0; k < p->facets; k++)
+        for (int i = 0; i < DIM && !(p->facet[k].height >= height); i++) near[p->facet[k].v[i]].v[0] = 1;
+    for (int k = 0; k < p->facets; k++) {
+        facet *f = &p->facet[k];
+        f->gone = 1;
+        for (int i = 0; i < DIM; i++) f->gone &= !near[f->v[i]].v[0];
+    }
+    for (int k = 0; k < p->facets; k++)
+        for (int i = 0; i < DIM; i++) {
+            int16_t *next = &p->facet[k].next[i];
+            if (*next != WALL && p->facet[*next].gone) *next = WALL;
+        }
+}
+
+/* Drops the tips that no facet has. */
+static void forget_tips(polytope *p)
+{
+    seam *place = p->rim;
+    int kept = 0;
+    for (int i = 0; i < p->tips; i++) place[i].v[0] = -1;
+    for (int k = 0; k < p->facets; k++)
+        for (int i = 0; i < DIM; i++) place[p->facet[k].v[i]].v[0] = 0;
+    for (int i = 0; i < p->tips; i++) {
+        if (place[i].v[0] < 0) continue;
+        p->tip[kept] = p->tip[i];
+        place[i].v[0] = (int16_t)kept++;
+    }
+    p->tips = kept;
+    for (int k = 0; k < p->facets; k++)
+        for (int i = 0; i < DIM; i++) p->facet[k].v[i] = place[p->facet[k].v[i]].v[0];
 }
 
 static facet *lowest(const polytope *p)
@@ -318,17 +489,7 @@ static facet *lowest(const polytope *p)
     return f;
 }
 
-/* Twice the area, or six times the volume, of the first DIM + 1 tips: above 0 where they turn counterclockwise. */
-static real turn_of(const polytope *p)
-{
-#if DIM == 2
-    return cross(reach_over(&p->tip[0], &p->tip[1]), reach_over(&p->tip[0], &p->tip[2]));
-#else
-    return dot(fine_cross(&p->tip[0], &p->tip[1], &p->tip[2]), reach_over(&p->tip[0], &p->tip[3]));
-#endif
-}
-
-/* The first DIM + 1 tips, as a surface. turn: which way they do. */
+/* The first DIM + 1 tips, as a surface. turn: above 0 where they turn counterclockwise. */
 static void put_simplex(polytope *p, real turn)
 {
 #if DIM == 2
@@ -341,6 +502,16 @@ static void put_simplex(polytope *p, real turn)
         for (int i = 0; i < DIM; i++) v[i] = side[k][turn > 0 || i > 1 ? i : 1 - i];
         put_facet(p, v);
     }
+    join_all(p, 0, p->facets);
+}
+
+/* The same, whichever way they turn: so that the last of them is not beyond the first facet. */
+static void put_first(polytope *p)
+{
+    put_simplex(p, 1);
+    if (!(side_of(p, &p->facet[0], &p->tip[DIM]) > 0)) return;
+    p->facets = 0;
+    put_simplex(p, -1);
 }
 
 #endif

@@ -409,20 +409,24 @@ static wide separation(finish *f, real radius_a, real radius_b, int *sign)
     return wide_quotient(wide_of(&squares), under);
 }
 
-/* The bracket of the distance less the radii, each end the nearest number its way, or the one next to that; the value
- * between. 0: numbers are lost, or too large to be told. */
-static int enclose(finish *f, real radius_a, real radius_b, real ends[3])
+/* A bracket of what is known to 128 UNIT^2 of itself, each end the nearest number its way, or the one next to that; the
+ * value between. 0: it is too large to be told. */
+static int round_off(wide s, int sign, real ends[3])
 {
-    int sign;
-    wide s = separation(f, radius_a, radius_b, &sign);
-    real error = 128 * UNIT * UNIT * s.t.high, low, high;
-    if (f->lost) return 0;
-    low = below(s.t.high, s.t.low - error, s.exponent);
-    high = -below(-s.t.high, -s.t.low - error, s.exponent);
+    real error = 128 * UNIT * UNIT * s.t.high;
+    real low = below(s.t.high, s.t.low - error, s.exponent), high = -below(-s.t.high, -s.t.low - error, s.exponent);
     ends[0] = sign < 0 ? -high : low;
     ends[1] = raised(s.t.high, s.exponent) * (real)sign;
     ends[2] = sign < 0 ? -low : high;
     return bounded(ends[0]) && bounded(ends[2]);
+}
+
+/* The bracket of the distance less the radii. 0: numbers are lost, or too large to be told. */
+static int enclose(finish *f, real radius_a, real radius_b, real ends[3])
+{
+    int sign;
+    wide s = separation(f, radius_a, radius_b, &sign);
+    return !f->lost && round_off(s, sign, ends);
 }
 
 /* What f found, as the search's own: the simplex, its weights, the normal. */

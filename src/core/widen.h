@@ -112,8 +112,37 @@ static sister(options) sister_options(const options *o, const search *q)
     return r;
 }
 
-/* Puts the question to the sister: r's bracket is narrowed by hers, her value and points stand in it, her steps and
- * calls are counted. FAULT: she can't be asked or has no answer, and nothing is changed. */
+/* Her bracket instead of r's, where it is the narrower one; with the normal and the points that belong to it. */
+static void take_all(result *r, const sister(result) * hers, real lower, real upper)
+{
+    if (!(upper - lower < r->upper - r->lower)) return;
+    r->lower = lower;
+    r->value = (real)hers->value;
+    r->upper = upper;
+    for (int i = 0; i < DIM; i++) {
+        r->normal[i] = (real)hers->normal[i];
+        r->point_a[i] = rounded_to_range(hers->point_a[i]);
+        r->point_b[i] = rounded_to_range(hers->point_b[i]);
+    }
+}
+
+/* r's bracket narrowed by hers; her value and points stand in it. */
+static void take_better(result *r, const sister(result) * hers, real lower, real upper)
+{
+    r->value = (real)hers->value;
+    if (lower > r->lower) {
+        r->lower = lower;
+        for (int i = 0; i < DIM; i++) r->normal[i] = (real)hers->normal[i];
+    }
+    if (upper < r->upper) {
+        r->upper = upper;
+        for (int i = 0; i < DIM; i++) r->point_a[i] = rounded_to_range(hers->point_a[i]);
+        for (int i = 0; i < DIM; i++) r->point_b[i] = rounded_to_range(hers->point_b[i]);
+    }
+}
+
+/* Puts the question to the sister, and takes what is better of her answer; her steps and calls are counted. FAULT: she
+ * can't be asked or has no answer, and nothing is changed. */
 static APART enum end ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     widened wide_a, wide_b;
@@ -125,16 +154,8 @@ static APART enum end ask_sister(search *q, const shape *a, const shape *b, cons
                               : sister(distance)(&wide_a.shape, &wide_b.shape, &asked, &hers);
     if (status < 0) return FAULT;
     real lower = rounded_down(hers.lower), upper = -rounded_down(-hers.upper);
-    r->value = (real)hers.value;
-    if (lower > r->lower) {
-        r->lower = lower;
-        for (int i = 0; i < DIM; i++) r->normal[i] = (real)hers.normal[i];
-    }
-    if (upper < r->upper) {
-        r->upper = upper;
-        for (int i = 0; i < DIM; i++) r->point_a[i] = rounded_to_range(hers.point_a[i]);
-        for (int i = 0; i < DIM; i++) r->point_b[i] = rounded_to_range(hers.point_b[i]);
-    }
+    if (g->deep) take_all(r, &hers, lower, upper); /* overlapping, there may be several ways out */
+    else take_better(r, &hers, lower, upper);
     q->steps += hers.steps;
     q->d.calls += hers.supports;
     return status == GJK_LIMIT ? OPEN : STILL;

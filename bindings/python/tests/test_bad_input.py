@@ -75,9 +75,9 @@ def test_bad_step_limits(steps):
 
 @precisions
 @pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize("corners", [7, 16385, 0, -1, 2**32 + 64, 64.0, NAN, "64", None, True, [64]])
+@pytest.mark.parametrize("corners", [7, 16001, 0, -1, 2**32 + 64, 64.0, NAN, "64", None, True, [64]])
 def test_bad_numbers_of_corners(precision, dim, corners):
-    words = "^option corners is a whole number from 8 to 16384, not "
+    words = "^option corners is a whole number from 8 to 16000, not "
     with pytest.raises(ValueError, match=words) as wrong:
         gjk.penetration(gjk.Sphere(1, dim=dim), gjk.Sphere(1, dim=dim), precision=precision, corners=corners)
     assert wrong.value.status is gjk.Status.BAD_ARGUMENT

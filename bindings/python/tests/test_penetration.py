@@ -261,13 +261,13 @@ LEMON, MELON = gjk.Ellipsoid((1, 2, 3)), gjk.Ellipsoid((2, 1, 1.5)).at((0.3, 0.2
 
 
 @precisions
-def test_more_corners_a_narrower_bracket(precision):
+def test_more_corners_no_wider_a_bracket(precision):
     asked = [
         gjk.penetration(LEMON, MELON, precision=precision, corners=n, max_steps=1000) for n in (8, 16, 32, 64, 300)
     ]
     widths = [result.upper - result.lower for result in asked]
     assert widths == sorted(widths, reverse=True)
-    assert widths[0] > 10 * widths[2] > 100 * widths[4]
+    assert widths[0] > 1e6 * widths[4] if precision == "double" else widths[0] > 100 * widths[4]
     assert max(result.lower for result in asked) <= min(result.upper for result in asked)
     assert asked[0].status is Status.LIMIT
     assert widths[4] < (1e-13 if precision == "double" else 2e-6)
@@ -275,10 +275,10 @@ def test_more_corners_a_narrower_bracket(precision):
 
 @precisions
 def test_room_to_spare_changes_nothing(precision):
-    asked = [gjk.penetration(LEMON, MELON, precision=precision, corners=n, max_steps=999) for n in (300, 301, 16384)]
+    asked = [gjk.penetration(LEMON, MELON, precision=precision, corners=n, max_steps=999) for n in (300, 301, 16000)]
     assert asked[0] == asked[1] == asked[2]
     box = gjk.Box((1, 1, 1))
-    asked = [gjk.penetration(box, box.at((1, 0.5, 0)), precision=precision, corners=n) for n in (64, 65, 16384)]
+    asked = [gjk.penetration(box, box.at((1, 0.5, 0)), precision=precision, corners=n) for n in (64, 65, 16000)]
     assert asked[0] == asked[1] == asked[2]
 
 

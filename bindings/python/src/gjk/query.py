@@ -171,9 +171,9 @@ def penetration(
     -value * normal is such a move.
 
     The depth is sought by a polytope that grows within the difference of the shapes. corners is how many it may have,
-    from 8 to 16384. Where they run out (Status.LIMIT) the bracket holds, and is wider than asked. Bodies with corners
-    of everyday size need 20 to 60, round ones about 100 for each six digits, and then max_steps of that order. With
-    64, the default, C takes the room from its stack; other numbers cost an allocation a call.
+    from 8 to 16000. Where they run out (Status.LIMIT) the bracket holds, and is wider than asked. 64, the default, do
+    for everyday bodies with corners, and for round ones unless they are all but concentric; C takes the room for them
+    from its stack, other numbers cost an allocation a call.
     The other options are those of `distance`.
     """
     v = _variant(a, b, precision)
@@ -189,7 +189,7 @@ def _workspace(v: Variant, corners: int) -> tuple[Any, int]:
     except (TypeError, OverflowError):
         size = 0
     if size == 0:
-        raise BadArgument(f"option corners is a whole number from 8 to 16384, not {corners!r}")
+        raise BadArgument(f"option corners is a whole number from 8 to 16000, not {corners!r}")
     return (ffi.NULL, 0) if corners == OWN_CORNERS else (ffi.new("double[]", size // 8 + 1), size)
 
 

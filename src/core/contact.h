@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/* Where shapes that overlap touch: the normal, and a pair of points that goes with it. And how deep, all in all. */
+#ifndef GJK_CORE_CONTACT_H
+#define GJK_CORE_CONTACT_H
+
+#include "tight_depth.h"
+
+/* ---- cores that are apart, and only the radii overlap ---- */
+
+/* A blend of the corners' x or y, times their grain, to twice the digits: one of them, and shares of the ways from
+ * there. */
+static vec exact_blend(const simplex *s, const real weight[DIM + 1], int from, size_t member, real grain, vec *low)
+{
+    vec at = mul(member_of(corner(s, from), member), grain), r;
+    for (int i = 0; i < DIM; i++) {
+        twin t = {at.c[i], 0};
+        for (int k = 0; k < s->n; k++) {
+            if (k == from) continue;
+            gather(&t, product_of(weight[k], member_of(corner(s, k), member).c[i] * grain));
+            gather(&t, product_of(-weight[k], at.c[i]));
+        }
+        t = sum_of(t.high, t.low);
+        r.c[i] = t.high;
+        low->c[i] = t.low;
+    }
+    return r;
+}
+
+/* Above the length of v, which is given to twice the digits. */
+static real length_above(vec v, vec v_low)
+{
+    twin square = {0, 0};
+    for (int i = 0; i < DIM; i++) {
+        twin c = sum_of(v.c[i], v_low.c[i]);
+        gather(&square, product_of_twins(c, c));
+    }
+    square = sum_of(square.high, square.low);
+    return square.high > UNIT * UNIT ? root_of(square).high * (1 + 2 * UNIT) : length(add(v, v_low)) * (1 + 8 * UNIT);
+}
+
+/* Bounds of cores that are apart and known by their corners, to next to no rounding: for shapes whose radii overlap.
+ * From above: the one pair of points that the weights single out, in the sets but for weights that add up to more than
+ * 1. */
+static void bound_apart(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1],
+                        real *upper)
+{
+    depth d = {.q = q, .a = a, .b = b, .g = g};
+    int from = 0;
+    real share = 0, edges = 0;
+    for (int k = 1; k < q->s.n; k++) from = weight[k] > weight[from] ? k : from;
+    vec x_low, x = exact_blend(&q->s, weight, from, offsetof(vertex, x), q->d.a.grain, &x_low);
+    vec y_low, y = exact_blend(&q->s, weight, from, offsetof(vertex, y), q->d.b.grain, &y_low);
+    vec high = blend(&q->s, weight, offsetof(vertex, w), 1), low = remainder_of(&q->d, x, x_low, y, y_low, high);
+    for (int k = 0; k < q->s.n; k++) {
+        if (k == from) continue;
+        share += weight[k];
+        edges += spread(sub(corner(&q->s, k)->w, corner(&q->s, from)->w)) + 8 * UNIT;
+    }
+    real off = larger(share - 1 + 4 * UNIT, 0) * edges + 256 * UNIT * UNIT;
+    *upper = smaller(*upper, length_above(high, low) + off);
+    bound_along(&d, q->normal);
+}
+
+/* The normal along the closest pair of cores that are apart and known by their corners: as good as the pair is, where
+ * the direction of the best bound is only as good as that bound. Left as it is where it proves less. */
+static void point_along_pair(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1])
+{
+    depth d = {.q = q, .a = a, .b = b, .g = g};
+    vec low, high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low)), normal = q->normal;
+    real lower = q->lower;
+    if (!(length(v) > 0)) return;
+    q->lower = -REAL_MAX;
+    bound_along(&d, mul(v, -1 / length(v)));
+    if (!(q->lower >= lower - 8 * UNIT * lower)) q->normal = normal;
+    q->lower = lower;
+}
+
+/* ---- cores that meet ---- */
+
+/* In the lowest facet's plane, as far as rounding can tell. */
+static int is_level(const depth *d, const tip *t)
+{
+    return size(height_of(t, d->floor->n) - d->floor->height) <= 32 * UNIT;
+}
+
+/* Of the body's corners that are as far along n as any, to rounding, the one farthest along aside. */
+static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
+{
+    vec best = axis(0, 0), up = k->posed ? pull(k->m, n) : n, out = k->posed ? pull(k->m, aside) : aside;
+    real top = -REAL_MAX, most = -REAL_MAX;
+    size_t count = count_corners(s);
+    for (size_t i = 0; i < count; i++) top = larger(dot(mul(nth_corner(s, i), k->grain), up), top);
+    for (size_t i = 0; i < count; i++) {
+        vec c = mul(nth_corner(s, i), k->grain);
+        if (!(dot(c, up) >= top - 16 * UNIT) || !(dot(c, out) > most)) continue;
+        most = dot(c, out);
+        best = nth_corner(s, i);
+    }
+    return best;
+}
+
+/* Of what is level the corner least along v: of all known corners, else of the tips. */
+static tip level_tip(const depth *d, vec v)
+{
+    tip best = d->p.tip[d->floor->v[0]];
+    if (d->g->exact) {
+        vertex c;
+        c.x = corner_aside(&d->q->d.a, d->a, d->floor->n, mul(v, -1));
+        c.y = corner_aside(&d->q->d.b, d->b, mul(d->floor->n, -1), v);
+        c.w = corner_of(&d->q->d, c.x, c.y);
+        return tip_of(d->q, &c, 1);
+    }
+    for (int k = 0; k < d->p.tips; k++)
+        if (is_level(d, &d->p.tip[k]) && dot(v, d->p.tip[k].w) < dot(v, best.w)) best = d->p.tip[k];
+    return best;
+}
+
+static void take_tip(simplex *s, const tip *t, vec foot)
+{
+    vertex *c = spare(s);
+    c->w = sub(t->w, foot);
+    c->x = t->x;
+    c->y = t->y;
+    s->n++;
+}
+
+/* The lowest point of the surface as a blend of tips: where the lowest facet's plane is nearest the origin. A face of
+ * more than DIM corners is several facets, so that point is sought among all that is level, as the origin is in a
+ * search. Returns how far beside it lies. */
+static real hand_over(const depth *d, real weight[DIM + 1])
+{
+    search *q = d->q;
+    vec foot = mul(d->floor->n, d->floor->height), v;
+    simplex *s = &q->s;
+    clear(s);
+    take_tip(s, &d->p.tip[d->floor->v[0]], foot);
+    v = point(s, 0);
+    for (int i = 0; i < USUAL_TIPS && dot(v, v) > UNIT * UNIT / 4; i++) {
+        tip t = level_tip(d, v);
+        simplex before = *s;
+        if (!is_level(d, &t) || !(dot(v, sub(t.w, foot)) < dot(v, v))) break;
+        take_tip(s, &t, foot);
+        vec better = nearest_of_all(s, 0, s->n <= DIM, 0);
+        if (!(dot(better, better) < dot(v, v))) {
+            *s = before;
+            break;
+        }
+        v = better;
+    }
+    q->v = v;
+    return certify(q, weight) - q->d.doubt;
+}
+
+/* The facet's normal, where that says as much as any direction asked: of several that are equal, one for normal and
+ * points alike. */
+static int takes_normal(depth *d, const facet *f)
+{
+    search *q = d->q;
+    vec normal = q->normal;
+    real best = q->lower;
+    q->lower = -REAL_MAX;
+    if (d->g->exact) bound_along(d, f->n);
+    int as_good = !d->g->exact || q->lower >= best - 16 * UNIT;
+    q->normal = as_good ? f->n : normal;
+    q->lower = larger(q->lower, best);
+    return as_good;
+}
+
+/* Normal and points go with the lowest facet. Of some that are equally low to rounding, one is the lowest in truth, and
+ * that one is right under the origin. */
+static void point_out(depth *d, real weight[DIM + 1])
+{
+    const facet *best = d->floor;
+    takes_normal(d, best);
+    real off = hand_over(d, weight);
+    if (!d->g->exact || !(off > 4 * UNIT)) return;
+    for (int k = 0; k < d->p.facets; k++) {
+        const facet *f = &d->p.facet[k];
+        if (f == best || !(f->height <= best->height + 64 * UNIT) || !takes_normal(d, f)) continue;
+        d->floor = f;
+        real here = hand_over(d, weight);
+        if (!(here < off)) continue;
+        off = here;
+        best = f;
+    }
+    d->floor = best;
+    takes_normal(d, best);
+    hand_over(d, weight);
+}
+
+/* Where the lowest facet is not the one for the normal, the points go with a facet that faces the same way. */
+static void turn_to_normal(depth *d)
+{
+    for (int k = 0; k < d->p.facets; k++) {
+        const facet *f = &d->p.facet[k];
+        if (dot(f->n, d->q->normal) > dot(d->floor->n, d->q->normal)) d->floor = f;
+    }
+}
+
+/* The cores meet, or nearly so: how deep. */
+static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
+{
+    d->p.fine = d->g->exact;
+    if (d->g->tight) {
+        d->p.side = exact_side;
+        d->p.of = d;
+    }
+    d->p.noise = (d->p.fine ? 32 * UNIT : 4) * UNIT;
+    enum end end = first_surface(d);
+    if (end == OPEN && d->p.facets > 0) end = deepen(d);
+    if (end == FAULT) return end;
+    if (d->g->tight && end == STILL) settle_depth(d, &end);
+    int proven = bound(d, upper);
+    d->settled &= proven || (d->flush && d->q->met);
+    if (d->settled) d->q->normal = d->normal;
+    if (!d->floor) return end;
+    if (end == OPEN) turn_to_normal(d);
+    if (d->settled || end == OPEN) hand_over(d, weight);
+    else point_out(d, weight);
+    return end;
+}
+
+#endif

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT */
+/* The end of a polytope's growth between hulls of known corners, without rounding: planes of facets, and whether a
+ * corner lies beyond one, are exact. So the depth is rounded once, at the end, and that of bodies that only touch is 0.
+ */
+#ifndef GJK_CORE_TIGHT_DEPTH_H
+#define GJK_CORE_TIGHT_DEPTH_H
+
+#include "penetration.h"
+
+static void take_tips(finish *f, const depth *d, const int16_t *v, int n)
+{
+    f->a = d->a;
+    f->b = d->b;
+    f->n = f->lost = f->squared = 0;
+    for (int i = 0; i < n; i++) take_in(f, d->p.tip[v[i]].x, d->p.tip[v[i]].y);
+}
+
+/* The facet's plane: way is outward, over / sqrt(under) its height. */
+static void take_plane(finish *f, const depth *d, const facet *of)
+{
+    take_tips(f, d, of->v, DIM);
+    dyadics a = difference_of(&f->w[1], &f->w[0]);
+#if DIM == 2
+    f->way = quarter(&a);
+    reverse(&f->way);
+#else
+    dyadics b = difference_of(&f->w[2], &f->w[0]);
+    f->way = outer(&a, &b);
+#endif
+    f->over = inner(&f->way, &f->w[0]);
+    f->under = inner(&f->way, &f->way);
+    side(f, &f->under);
+    side(f, &f->over);
+}
+
+/* On which side of the facet's plane t is: 1, the outer. */
+static int exact_side(const void *of, const facet *of_it, const tip *t)
+{
+    const depth *d = of;
+    finish f;
+    take_plane(&f, d, of_it);
+    dyadics a = placed(d->a, t->x), b = placed(d->b, t->y), w = difference_of(&a, &b), e = difference_of(&w, &f.w[0]);
+    dyadic r = inner(&f.way, &e);
+    return r.sign;
+}
+
+/* The corner farthest along the way, and whether it lies beyond the first. */
+static int take_step(finish *f, depth *d, tip *t)
+{
+    vertex c = {.x = f->x[0], .y = f->y[0]};
+    dyadics back = f->way;
+    reverse(&back);
+    d->q->steps++;
+    d->q->d.calls += 2;
+    dyadic up = climb(f, d->a, &f->way, &c.x), down = climb(f, d->b, &back, &c.y), gain = plus(&up, &down, 1);
+    c.w = corner_of(&d->q->d, c.x, c.y);
+    *t = tip_of(d->q, &c, 1);
+    return side(f, &gain) > 0;
+}
+
+/* Minus the height of the plane and the radii: the bracket of the separation along the way, if nothing lies beyond. 0:
+ * numbers are lost. */
+static int enclose_depth(finish *f, const depth *d, real ends[3])
+{
+    dyadic a = dyadic_of(d->a->radius), b = dyadic_of(d->b->radius), r = plus(&a, &b, 1);
+    wide sum = wide_sum(core_distance(f), wide_of(&r));
+    return !f->lost && round_off(sum, sum.t.high > 0 ? -1 : 0, ends);
+}
+
+/* The lowest of the facets that may be it, by their planes; f, ends: its own. NULL: one has no plane, or lies beyond
+ * the origin. */
+static facet *lowest_plane(finish *f, const depth *d, real ends[3])
+{
+    facet *low = d->p.facet, *best = NULL;
+    real height = lowest(&d->p)->height + 64 * UNIT + d->q->d.doubt, here[3];
+    for (int k = 0; k < d->p.facets; k++) {
+        if (!(low[k].height <= height)) continue;
+        take_plane(f, d, &low[k]);
+        if (f->over.sign < 0 && !f->lost) return &low[k];
+        if (f->under.sign == 0 && !f->lost) continue;
+        if (!enclose_depth(f, d, here)) return NULL;
+        if (best && !(here[2] > ends[2])) continue;
+        memcpy(ends, here, sizeof here);
+        best = &low[k];
+    }
+    if (best) take_plane(f, d, best);
+    return best;
+}
+
+/* Grows the polytope on, from where rounding sees nothing beyond it: until the lowest plane has no corner beyond it.
+ * Its facet is the floor then, and ends the bracket of the separation, radii included, if the surface goes around the
+ * origin: STILL. OPEN: steps or workspace are used up. FAULT: it can't be done. */
+static enum end grow_on(depth *d, finish *f, real ends[3])
+{
+    for (;;) {
+        tip t;
+        facet *low = lowest_plane(f, d, ends);
+        if (!low || !(d->dropped.least > low->height + 64 * UNIT + d->q->d.doubt)) return FAULT;
+        d->floor = low;
+        if (d->q->steps >= d->g->max_steps) return OPEN;
+        if (!take_step(f, d, &t)) break;
+        if (f->lost || grow(&d->p, low, &t) != GROWN) return FAULT;
+        enum end end = deepen(d);
+        if (end != STILL) return end;
+    }
+    return f->lost || f->over.sign < 0 ? FAULT : STILL;
+}
+
+/* A way square to the tips, which is all that a flat difference has. */
+static void take_normal(finish *f, const depth *d)
+{
+    static const int16_t first[3] = {0, 1, 2};
+    take_tips(f, d, first, d->p.tips);
+    f->way = no_way();
+    f->way.c[0] = dyadic_of(1);
+    if (f->n < 2) return;
+    dyadics a = difference_of(&f->w[1], &f->w[0]);
+#if DIM == 2
+    f->way = quarter(&a);
+#else
+    dyadics b = no_way();
+    int k = 0;
+    for (int i = 1; i < 3; i++) k = side(f, &a.c[i]) == 0 ? i : k;
+    b.c[k] = dyadic_of(1);
+    if (f->n > 2) b = difference_of(&f->w[2], &f->w[0]);
+    f->way = outer(&a, &b);
+#endif
+}
+
+/* Of a difference that is flat to rounding: STILL, it is so without rounding, and the origin in it; OPEN, it has a
+ * surface now. FAULT: numbers are lost. */
+static enum end span_out(depth *d, finish *f)
+{
+    while (d->p.tips <= DIM) {
+        tip t;
+        take_normal(f, d);
+        dyadic height = inner(&f->way, &f->w[0]);
+        if (!take_step(f, d, &t)) {
+            reverse(&f->way);
+            if (!take_step(f, d, &t)) return side(f, &height) == 0 && !f->lost ? STILL : FAULT;
+        }
+        if (f->lost) return FAULT;
+        d->p.tip[d->p.tips++] = t;
+    }
+    put_first(&d->p);
+    return OPEN;
+}
+
+/* Settles the depth, where it can be: then d->ends are the bracket of the separation, radii included, if the origin is
+ * proven to be in the difference. */
+static APART void settle_depth(depth *d, enum end *end)
+{
+    finish f;
+    enum end grown = STILL;
+    if (d->p.facets == 0) grown = span_out(d, &f);
+    if (grown == OPEN) grown = deepen(d);
+    if (grown == STILL && d->p.facets > 0) grown = grow_on(d, &f, d->ends);
+    d->settled = grown == STILL;
+    if (grown != FAULT) *end = grown;
+    if (d->settled && d->p.facets == 0) {
+        f.over = nought(0);
+        f.under = dyadic_of(1);
+        d->settled = enclose_depth(&f, d, d->ends);
+    }
+    if (!d->settled) return;
+    d->flush = f.over.sign == 0;
+    d->normal = rough(&f.way);
+    d->normal = mul(d->normal, 1 / length(d->normal));
+}
+
+#endif
