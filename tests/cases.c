@@ -4,8 +4,12 @@
 #include "cases.h"
 #include "truth.h"
 
-#define VALUE_ERROR 4.0 /* in u * scale */
-#define TELLS 100.0     /* in u * span: farther apart, intersect must say so */
+#define VALUE_ERROR 4.0   /* in u * scale */
+#define WIDTH 16.0        /* of polytopes that meet, in u * scale; with radii, in u * span */
+#define SMOOTH_WIDTH 100. /* of others, in u * span */
+#define NORMAL_ERROR 16.0 /* of the separation along the normal, in u * scale */
+#define UNIT_ERROR 8.0    /* in u */
+#define TELLS 100.0       /* in u * span: farther apart, intersect must say so */
 
 static int failures;
 
@@ -62,6 +66,121 @@ static void tight_case(const test_case *c, const body *a, const body *b, V(cache
     check(c, !exact || (r.upper <= 0) == (c->relation != K(APART)), "meeting or not is not told", &r);
 }
 
+/* ---- depth ---- */
+
+typedef struct depth_case {
+    const test_case *c;
+    const body *a, *b;
+    const truth *t;
+    quad low, high; /* the signed separation is between */
+    double span;
+    int known, sharp; /* corners that the library knows; and no radius */
+} depth_case;
+
+static double max_depth_error, max_depth_width, max_excess, max_grown_width, max_smooth_width;
+static long smooth_depths, depth_limits;
+
+static double in_u(quad x, quad unit) { return (double)(x / ((quad)U * unit + (quad)REAL_MIN)); }
+
+/* Of the bodies along the normal, radii included; NaN where that is not unit. */
+static quad separation_along(const depth_case *d, const real *normal)
+{
+    quad n[DIM], back[DIM], x[DIM], y[DIM], along = 0, length;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)normal[i];
+        back[i] = -n[i];
+    }
+    length = quad_length(n);
+    if (!(quad_abs(length - 1) <= (quad)(UNIT_ERROR * U))) {
+        return (quad)NAN;
+    }
+    quad_farthest(&d->t->a, n, x);
+    quad_farthest(&d->t->b, back, y);
+    for (int i = 0; i < DIM; i++) {
+        along += n[i] * (y[i] - x[i]) * d->t->unit;
+    }
+    return along / length - (quad)d->a->shape.radius - (quad)d->b->shape.radius;
+}
+
+/* Of every pair, whatever the room. */
+static void check_separation(const depth_case *d, const V(result) * r, quad along)
+{
+    check(d->c, (quad)r->lower <= d->high && (quad)r->upper >= d->low, "the bracket of the depth misses the truth", r);
+    check(d->c, r->lower <= r->value && r->value <= r->upper, "the depth is outside its bracket", r);
+    check(d->c, along - along == 0, "the normal is not unit", r);
+    check(d->c, in_u((quad)r->lower - along, (quad)d->span) <= NORMAL_ERROR, "the normal does not realise lower", r);
+}
+
+/* Of a pair that meets, with room. */
+static void check_depth(const depth_case *d, const V(result) * r, quad along)
+{
+    quad v = (quad)r->value, wide = (quad)r->upper - (quad)r->lower;
+    double error = in_u(v > d->high ? v - d->high : v < d->low ? d->low - v : 0, d->t->scale);
+    double width = in_u(wide, d->sharp ? d->t->scale : (quad)d->span), excess = in_u(d->low - along, d->t->scale);
+    double *widest = d->sharp ? &max_depth_width : d->known ? &max_grown_width : &max_smooth_width;
+    smooth_depths += !d->known;
+    if (!d->known && r->status == GJK_LIMIT) {
+        depth_limits++;
+        return;
+    }
+    *widest = fmax(*widest, width);
+    check(d->c, width <= (d->known ? WIDTH : SMOOTH_WIDTH), "the bracket of the depth is wide", r);
+    if (d->known) {
+        max_depth_error = fmax(max_depth_error, error);
+        max_excess = fmax(max_excess, excess);
+        check(d->c, error <= VALUE_ERROR, "the depth is off", r);
+        check(d->c, excess <= NORMAL_ERROR, "the normal leads another way out", r);
+        check(d->c, !d->sharp || r->upper <= 0, "penetration does not see that they meet", r);
+    }
+}
+
+/* As soon as distance sees it. */
+static void check_apart(const depth_case *d, const V(result) * r)
+{
+    V(result) as;
+    memset(&as, 0, sizeof as);
+    as.status = V(distance)(&d->a->shape, &d->b->shape, NULL, &as);
+    check(d->c, !(as.lower > 0) || (as.value == r->value && as.lower == r->lower && as.upper == r->upper),
+          "apart, but not what distance says", r);
+}
+
+/* penetration in the usual room, in much, and in the least. */
+static void depth_of_case(const test_case *c, const body *a, const body *b, const truth *t, V(cache) * cache)
+{
+    static real room[1 << 16];
+    static const uint32_t corners[] = {0, 1000, 8};
+    quad small = ((quad)t->a.size + (quad)t->b.size) * t->unit * (quad)1e-28;
+    int known = has_corners(a) && has_corners(b);
+    depth_case d = {c, a, b, t, 0, 0, span_of_pair(a, b), known, known && !(a->shape.radius + b->shape.radius > 0)};
+    V(options) o = default_options();
+    d.low = (quad)c->separation[0] + (quad)c->separation[1];
+    d.high = (quad)c->separation[2] + (quad)c->separation[3];
+    o.cache = cache;
+    if (!(t->lower <= d.high + small && t->upper >= d.low - small)) {
+        failures++;
+        print_error("%s: truth.h is wrong about the depth\n", c->id);
+    }
+    for (int k = 0; k < 3; k++) {
+        V(result) r;
+        quad along;
+        memset(&r, 0, sizeof r);
+        o.workspace_bytes = (uint32_t)V(workspace_size)(corners[k]);
+        o.workspace = corners[k] ? room : NULL;
+        assert_true(o.workspace_bytes <= sizeof room);
+        check(c, V(penetration)(&a->shape, &b->shape, &o, &r) >= 0, "penetration fails", &r);
+        along = separation_along(&d, r.normal);
+        check_separation(&d, &r, along);
+        if (c->relation != K(APART) && corners[k] != 8) {
+            check_depth(&d, &r, along);
+        }
+        if (c->relation == K(APART) && !cache) {
+            check_apart(&d, &r);
+        }
+    }
+}
+
+/* ---- each case ---- */
+
 static void one_case(const test_case *c, V(cache) * cache)
 {
     static truth t;
@@ -101,6 +220,7 @@ static void one_case(const test_case *c, V(cache) * cache)
     check(c, r.upper <= 0 || (double)-t.upper <= TELLS * U * span, "not seen to meet", &r);
     check(c, !(r.upper <= 0) || c->relation != K(APART), "wrongly said to meet", &r);
     tight_case(c, a, b, cache, low, high);
+    depth_of_case(c, a, b, &t, cache);
 }
 
 static void cold(void **state)
@@ -111,8 +231,13 @@ static void cold(void **state)
     }
     printf("%-6s %zu cases: error at most %.2f u * scale for polytopes, %.2f for round shapes\n", VARIANT, C(_count),
            max_error, max_round_error);
+    printf("%-6s depths: error at most %.2f, bracket %.2f, excess along the normal %.2f u * scale of polytopes; "
+           "bracket with radii %.1f, of round shapes %.1f u * span, but for %ld limits of %ld\n",
+           VARIANT, max_depth_error, max_depth_width, max_excess, max_grown_width, max_smooth_width, depth_limits,
+           smooth_depths);
     printf("%-6s tight: %ld cases, error at most %.3f ulp\n", VARIANT, tight_cases, max_ulps);
     assert_true(tight_cases > 100);
+    assert_true(smooth_depths > 10 && depth_limits < smooth_depths / 3);
     assert_true(C(_count) > 100);
     assert_int_equal(failures, 0);
 }

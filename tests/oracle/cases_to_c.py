@@ -30,6 +30,7 @@ typedef struct {x} {{
     {x}_shape a, b;
     double lower_hi, lower_lo; /* lower_hi + lower_lo <= the distance, lower_lo rounded down */
     double upper_hi, upper_lo; /* the distance <= upper_hi + upper_lo, upper_lo rounded up */
+    double separation[4];      /* the signed separation in the same way: lower hi, lo, upper hi, lo */
     double scale;              /* rounded up */
     int relation;              /* enum {x}_relation */
 }} {x};
@@ -59,6 +60,12 @@ def directed(value, up):
 def double_double(value, up):
     hi = float(value)
     return hi, directed(value - Fraction(hi), up)
+
+
+def signed(expect):
+    """The bracket of the signed separation, as text: apart it is the distance, and 0 where the sets touch."""
+    kind = "separation" if expect["relation"] == "overlapping" else "distance"
+    return expect[f"{kind}_lower"], expect[f"{kind}_upper"]
 
 
 class Writer:
@@ -129,13 +136,17 @@ class Writer:
         expect = case["expect"]
         lower = double_double(Fraction(expect["distance_lower"]), False)
         upper = double_double(Fraction(expect["distance_upper"]), True)
-        doubles = [*lower, *upper, directed(Fraction(str(expect["scale"])), True)]
+        deep, shallow = (double_double(Fraction(x), up) for x, up in zip(signed(expect), (False, True)))
+        separation = f"{{{', '.join(x.hex() for x in (*deep, *shallow))}}}"
+        scale = directed(Fraction(str(expect["scale"])), True)
         fields = [
             json.dumps(case["id"]),
             json.dumps(case["group"]),
             self.shape(case["a"]),
             self.shape(case["b"]),
-            *(x.hex() for x in doubles),
+            *(x.hex() for x in (*lower, *upper)),
+            separation,
+            scale.hex(),
             f"{self.prefix}_{expect['relation']}".upper(),
         ]
         return f"    {{{', '.join(fields)}}}"

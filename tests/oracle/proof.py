@@ -182,16 +182,19 @@ def prove_depth(truth, a, b, dim):
     each side of one is a side of another, the other way round. So every ray from 0 leaves through one of them, and all
     that lies nearer than their planes is among the differences, as 0 and the corners are."""
     require(truth.direction is not None and any(truth.direction), "no direction")
-    if truth.depth_squared == 0:
-        return
+    if truth.depth_squared > 0:
+        prove_shell(truth, truth.depth_squared, a, b, dim)
+
+
+def prove_shell(found, depth_squared, a, b, dim):
     for which, shape in ((0, a), (1, b)):
-        prove_members([c[which] for c in truth.corners], shape, dim)
-    w = [[q - p for p, q in zip(*c)] for c in truth.corners]
+        prove_members([c[which] for c in found.corners], shape, dim)
+    w = [[q - p for p, q in zip(*c)] for c in found.corners]
     sides = Counter()
-    for corners in truth.facets:
+    for corners in found.facets:
         n = normal([w[i] for i in corners])
         h = dot(n, w[corners[0]])
-        require(h * h >= truth.depth_squared * dot(n, n) and h != 0, "a facet nearer than the depth")
+        require(h * h >= depth_squared * dot(n, n) and h != 0, "a facet nearer than the depth")
         sides.update(oriented_sides(corners if h > 0 else (corners[1], corners[0], *corners[2:])))
     require(sides and all(sides[side] == sides[opposite(side)] for side in sides), "the shell is not closed")
 
@@ -224,6 +227,24 @@ def prove_depth_as_answer(truth, radii):
     require(high - low <= (high + radii) / 10**30, "separation of a polytope too wide")
     overlapping = truth.depth_squared > 0 or radii > 0
     require(truth.relation == ("overlapping" if overlapping else "touching"), "relation of sets that meet")
+
+
+def prove_separation(found, truth, a, b, dim):
+    """Of a pair whose truth is proven: its signed separation too, where it overlaps."""
+    require(found.lower <= found.upper, "separation upside down")
+    if truth.relation != "overlapping":
+        expected = (truth.lower, truth.upper) if truth.relation == "apart" else (0, 0)
+        require((found.lower, found.upper) == expected, "separation is not the distance")
+        return
+    d, radii = fractions(found.direction), outer_ball(a, dim) + outer_ball(b, dim)
+    least, square = -core_reach(b, [-c for c in d]) - core_reach(a, d), dot(d, d)
+    least /= exact.root(square, least > 0)
+    require(least - radii >= found.lower - truth.scale / 10**35, "lower is not along the direction")
+    if found.upper >= -radii:
+        v = [sum(weight * (q[i] - p[i]) for weight, p, q in truth.corral) for i in range(dim)]
+        require((found.upper + radii) ** 2 >= dot(v, v), "upper is not above the pair of points")
+    else:
+        prove_shell(found, (found.upper + radii) ** 2, a, b, dim)
 
 
 def prove_interior(a, b, dim):

@@ -14,6 +14,7 @@ from itertools import combinations, product
 from math import gcd
 
 import cases_to_c
+import depth
 import draw
 import proof
 import pytest
@@ -174,6 +175,55 @@ def test_radii_add_to_the_depth():
 def test_round_sets_have_no_depth():
     truth = solve({"shape": "disc", "r": 1}, box(1, 1, 1), 3)
     assert truth.depth_squared is truth.separation is truth.normal is None and truth.facets == ()
+
+
+def signed(a, b, dim):
+    truth = solve(a, b, dim)
+    found = depth.separation(truth, a, b, dim)
+    proof.prove_separation(found, truth, a, b, dim)
+    return found
+
+
+CYLINDER = {"shape": "cylinder", "r": 1, "half_length": 2}
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "expected"),
+    [
+        (CYLINDER, box(1, 1, 0.5, p=[0, 0, 2.25]), Fraction(-1, 4)),
+        (CYLINDER, box(1, 3, 3, p=[1.75, 0, 0]), Fraction(-1, 4)),
+        ({**CYLINDER, "radius": 0.5}, box(1, 3, 3, p=[1.75, 0, 0]), Fraction(-3, 4)),
+        ({"shape": "ellipsoid", "radii": [4, 2, 1]}, points([0, 0, 0.25]), Fraction(-3, 4)),
+        ({"shape": "ellipsoid", "radii": [4, 2, 1]}, {"shape": "disc", "r": 1}, Fraction(-1)),
+        (
+            {"shape": "ellipsoid", "radii": [2, 2, 2]},
+            {"shape": "ellipsoid", "radii": [1, 1, 1], "pose": at(2, 1, 0)},
+            None,
+        ),
+    ],
+)
+def test_round_depths(a, b, expected):
+    found = signed(a, b, 3)
+    if expected is None:  # of balls: the way between their middles, less both radii
+        assert (found.lower + 3) ** 2 <= 5 <= (found.upper + 3) ** 2
+    else:
+        assert found.lower <= expected <= found.upper
+    assert found.upper - found.lower <= Fraction(1, 10**23)
+
+
+def test_round_depth_without_one_way_out():
+    """Any way across is as good: the bracket holds, but it closes slowly."""
+    found = signed(CYLINDER, {"shape": "cone", "r": 0.5, "half_length": 1.75}, 3)
+    assert found.lower <= -Fraction(3, 2) <= found.upper < found.lower + Fraction(1, 1000)
+    assert len(found.corners) == depth.MOST_CORNERS
+
+
+def test_separations_of_the_rest():
+    apart, touching = sphere(1, 3, 0, 0), box(1, 1, 1, p=[2, 0, 0])
+    assert signed(box(1, 1, 1), apart, 3).lower == signed(box(1, 1, 1), apart, 3).upper == 1
+    assert signed(box(1, 1, 1), touching, 3).lower == signed(CYLINDER, touching, 3).upper == 0
+    assert signed(CYLINDER, sphere(1, 1.5, 0, 0), 3).lower <= Fraction(-1, 2)  # outside the cylinder, the ball aside
+    assert signed(box(1, 1, 1), box(1, 1, 1, p=[0.5, 0, 0]), 3).upper == -Fraction(3, 2)
 
 
 def test_couples_of_polytopes_have_a_depth():
@@ -504,6 +554,25 @@ def test_lies_about_round_shapes_are_noticed():
             proof.prove(dataclasses.replace(truth, **lie), a, b, 3)
 
 
+@pytest.mark.parametrize("b", [box(1, 3, 3, p=[1.75, 0, 0]), sphere(1, 1.5, 0, 0), box(1, 1, 1, p=[3, 0, 0])])
+def test_lies_about_a_separation_are_noticed(b):
+    """Of curved cores that meet, of curved ones whose balls do, and of sets apart."""
+    truth = solve(CYLINDER, b, 3)
+    found, nudge = depth.separation(truth, CYLINDER, b, 3), Fraction(1, 10**20)
+    lies = [
+        {"lower": found.lower + nudge, "upper": found.upper + nudge},
+        {"lower": found.upper, "upper": found.lower - 1},
+    ]
+    lies += [{"lower": found.lower - nudge, "upper": found.upper - nudge}]
+    if truth.relation == "overlapping":
+        lies += [{"direction": tuple(-c for c in found.direction)}, {"direction": (1, 9, 9)}]
+    if found.facets:
+        lies += [{"facets": found.facets[1:]}, {"corners": tuple((q, p) for p, q in found.corners)}]
+    for lie in lies:
+        with pytest.raises(exact.Unproven):
+            proof.prove_separation(dataclasses.replace(found, **lie), truth, CYLINDER, b, 3)
+
+
 def test_touching_and_overlapping_are_not_mistaken():
     a, b, deeper = box(1, 1, 1), box(1, 1, 1, p=[2, 1, 0]), box(1, 1, 1, p=[1.5, 1, 0])
     truth = solve(a, b, 3)
@@ -577,14 +646,15 @@ def test_c_headers(variant, tmp_path):
     assert len(rows) == len(kept)
     for row, case in zip(rows, kept):
         assert json.dumps(case["id"]) in row
-        *_, l_hi, l_lo, u_hi, u_lo, scale, relation = row.rstrip(",").rstrip("}").split(", ")
-        lower, upper = (
-            Fraction(float.fromhex(h)) + Fraction(float.fromhex(o)) for h, o in ((l_hi, l_lo), (u_hi, u_lo))
-        )
-        true_lower, true_upper = (Fraction(case["expect"][f"distance_{k}"]) for k in ("lower", "upper"))
-        assert lower <= true_lower <= true_upper <= upper
-        assert true_lower - lower <= true_lower / 2**100 + Fraction(5e-324)
-        assert upper - true_upper <= true_upper / 2**100 + Fraction(5e-324)
+        *numbers, scale, relation = re.sub("[{}]", "", row.rstrip(",")).split(", ")
+        expect, parts = case["expect"], [Fraction(float.fromhex(x)) for x in numbers[-8:]]
+        for kind, (l_hi, l_lo, u_hi, u_lo) in (("distance", parts[:4]), ("separation", parts[4:])):
+            kind = kind if f"{kind}_lower" in expect else "distance"
+            true_lower, true_upper = (Fraction(expect[f"{kind}_{k}"]) for k in ("lower", "upper"))
+            lower, upper = l_hi + l_lo, u_hi + u_lo
+            assert lower <= true_lower <= true_upper <= upper
+            assert true_lower - lower <= abs(true_lower) / 2**100 + Fraction(5e-324)
+            assert upper - true_upper <= abs(true_upper) / 2**100 + Fraction(5e-324)
         assert Fraction(float.fromhex(scale)) >= Fraction(str(case["expect"]["scale"]))
         assert relation == f"{writer.prefix}_{case['expect']['relation']}".upper()
         literals = {float.fromhex(x) for x in re.findall(r"-?0x[0-9a-f.]+p[+-]\d+", row)}

@@ -8,9 +8,10 @@ import json
 import sys
 from fractions import Fraction
 
+import depth
 from alone import ROOT, exact
 from draw import GROUPS, Draw
-from proof import prove
+from proof import prove, prove_separation
 
 VARIANTS = {"gjk2": (2, "double"), "gjk2f": (2, "float"), "gjk3": (3, "double"), "gjk3f": (3, "float")}
 MUSEUM = "museum"  # kept by hand: what users of other libraries reported; only its expectations are written here
@@ -42,13 +43,17 @@ def printable(thing, precision):
     return short(exact.to_float32(x)) if precision == "float" else x
 
 
-def expectation(truth):
-    return {
+def expectation(truth, separation):
+    found = {
         "distance_lower": exact.decimal(truth.lower, False),
         "distance_upper": exact.decimal(truth.upper, True),
         "relation": truth.relation,
         "scale": float(exact.decimal(truth.scale, True, 6)),
     }
+    if truth.relation == exact.OVERLAPPING:
+        found["separation_lower"] = exact.decimal(separation.lower, False)
+        found["separation_upper"] = exact.decimal(separation.upper, True)
+    return found
 
 
 def solved(case):
@@ -62,7 +67,9 @@ def solved(case):
         return None
     if truth.upper - truth.lower > truth.scale * Fraction(1, 10**25):
         raise exact.Unproven(f"{case['id']}: bracket too wide")
-    return {**case, "expect": expectation(truth)}
+    separation = depth.separation(truth, a, b, case["dim"])
+    prove_separation(separation, truth, a, b, case["dim"])
+    return {**case, "expect": expectation(truth, separation)}
 
 
 def make(variant, group, index):
