@@ -42,7 +42,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     if (ask_distance(&q, 0, &cold)) {
         check_value(&q, &cold);
         check_witnesses(&q, &cold);
-        must_scale(&q, 0, &cold, exponent);
+        must_scale(&q, DISTANCE, &cold, exponent);
         if (ask_distance(&q, 1, &r)) {
             must_meet(&q, "swapped, another answer", &r, &cold);
         }

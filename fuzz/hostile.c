@@ -155,15 +155,17 @@ static void start_over(hostile *h, const question *q)
     h->calls = 0;
 }
 
-static void ask(question *q, hostile *h, int intersect, int counted)
+static void ask(question *q, hostile *h, enum query asked, int counted)
 {
+    static const char *const names[QUERIES] = {"distance of hostile supports", "intersect of hostile supports",
+                                               "penetration of hostile supports"};
     V(result) r, before;
     memset(&before, 0x5a, sizeof before);
     r = before;
-    q->query = intersect ? "intersect of hostile supports" : "distance of hostile supports";
+    q->query = names[asked];
     start_over(&h[0], q);
     start_over(&h[1], q);
-    int status = (intersect ? V(intersect) : V(distance))(&q->s.p.a.shape, &q->s.p.b.shape, &q->options, &r);
+    int status = query_of[asked](&q->s.p.a.shape, &q->s.p.b.shape, &q->options, &r);
     if (status < 0) {
         if (status != GJK_BAD_SUPPORT) {
             broken(q, "not called a bad support", NULL, status);
@@ -173,14 +175,14 @@ static void ask(question *q, hostile *h, int intersect, int counted)
         }
         return;
     }
-    check_form(q, &r, status);
+    check_form(q, asked, &r, status);
     if (counted && r.supports != h[0].calls + h[1].calls) {
         broken(q, "support calls were miscounted", &r, h[0].calls + h[1].calls);
     }
-    if (!intersect && !(r.lower >= 0)) {
+    if (asked == DISTANCE && !(r.lower >= 0)) {
         broken(q, "a distance below 0", &r, 0);
     }
-    if (intersect && r.value != (r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0)) {
+    if (asked == INTERSECT && r.value != (r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0)) {
         broken(q, "the value does not state the verdict", &r, 0);
     }
 }
@@ -211,8 +213,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     q.options.cutoff = flags & 16 ? size_number(&in) : 0;
     q.options.tight = (uint32_t)(flags >> 5 & 1);
     announce(&q);
-    for (int k = 0; k < 4; k++) {
-        ask(&q, h, k & 1, counted);
+    for (int k = 0; k < 2 * QUERIES; k++) {
+        ask(&q, h, (enum query)(k % QUERIES), counted);
     }
     return 0;
 }

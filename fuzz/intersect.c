@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     seek_truth(&q);
     announce(&q);
     if (ask_intersect(&q, 0, &cold)) {
-        must_scale(&q, 1, &cold, exponent);
+        must_scale(&q, INTERSECT, &cold, exponent);
         check_witnesses(&q, &cold);
         if (ask_intersect(&q, 1, &r)) {
             must_meet(&q, "swapped, another answer", &r, &cold);

@@ -18,6 +18,10 @@
 #define EXACT_DIGITS 1200  /* more than that between the ends of the numbers, and tight is no more than usual */
 #define SLOP ((quad)1e-28) /* of the truth itself: it is sought for a pair of size 1 */
 
+enum query { DISTANCE, INTERSECT, PENETRATION, QUERIES };
+typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
+static query_fn *const query_of[QUERIES] = {V(distance), V(intersect), V(penetration)};
+
 #define NOTHING (-100000) /* the exponent of 0 */
 
 /* The truth is sought for the pair brought to size 1 by powers of two, from where the numbers are; whatever is lost to
@@ -266,6 +270,13 @@ static inline int finite(const real *x, int count)
 
 /* ---- the laws for one answer ---- */
 
+/* What was taken off that coordinate of both positions. */
+static inline real taken_off(const question *q, int i)
+{
+    const real *a = &q->s.p.a.pose.p[i], *b = &q->s.p.b.pose.p[i];
+    return memcmp(a, b, sizeof *a) == 0 ? *a : 0;
+}
+
 /* How far a point of the frame is off the body, for certain. */
 static inline double stands_off(const question *q, int k, const real *point)
 {
@@ -274,10 +285,8 @@ static inline double stands_off(const question *q, int k, const real *point)
     start_body(&dot, POINTS);
     dot.count = 1;
     for (int i = 0; i < DIM; i++) {
-        const body *was = &q->s.p.a;
-        int shifted_away = memcmp(&was->pose.p[i], &q->s.p.b.pose.p[i], sizeof was->pose.p[i]) == 0;
         dot.v[0][i] = point[i];
-        dot.pose.p[i] = shifted_away ? -was->pose.p[i] : 0;
+        dot.pose.p[i] = -taken_off(q, i);
     }
     multiply(dot.v[0], DIM, -q->exponent);
     multiply(dot.pose.p, DIM, -q->exponent);
@@ -293,30 +302,33 @@ static inline double width_of(const question *q)
     return q->s.silent[0] || q->s.silent[1] ? WIDTH * sqrt(DIM) : WIDTH;
 }
 
-static inline void check_witnesses(const question *q, const V(result) * r)
+/* What points are rounded by: the sizes, and how far out they stand. 0: of what is so far out nothing is asked. */
+static inline quad scale_of_points(const question *q, const V(result) * r)
 {
-    quad scale, n = 0, way = 0;
-    double off;
     int world = larger_of(highest(r->point_a, DIM), highest(r->point_b, DIM));
     if (!q->tame || world > q->exponent + 60) {
-        return; /* points are as good as the coordinates of their frame */
+        return 0;
     }
-    scale = q->span + (world > NOTHING ? shifted(1, world - q->exponent) : 0);
-    for (int i = 0; i < DIM; i++) {
-        quad gap = at_one(q, r->point_b[i]) - at_one(q, r->point_a[i]);
-        way += gap * gap;
-        n += (quad)r->normal[i] * (quad)r->normal[i];
-    }
+    return q->span + (world > NOTHING ? shifted(1, world - q->exponent) : 0);
+}
+
+/* more: how far off they may be beyond their rounding, in u * scale. */
+static inline void check_points_in(const question *q, const V(result) * r, quad scale, double more)
+{
     for (int k = 0; k < 2; k++) {
-        off = in_u(q, (quad)stands_off(q, k, k ? r->point_b : r->point_a), scale);
-        /* of an overlap the point of intersect is no better than its bracket */
-        if (!(off - (r->upper < 0 ? in_u(q, at_one(q, r->upper) - at_one(q, r->lower), scale) : 0) <= WITNESS_ERROR)) {
+        double off = in_u(q, (quad)stands_off(q, k, k ? r->point_b : r->point_a), scale);
+        if (!(off - more <= WITNESS_ERROR)) {
             broken(q, k ? "point_b is outside b, in u * span" : "point_a is outside a, in u * span", r, off);
         }
     }
-    off = in_u(q, quad_sqrt(way) - positive(at_one(q, r->upper)), scale);
-    if (!(off <= WITNESS_ERROR && off >= -width_of(q))) {
-        broken(q, "the points do not realise upper, in u * span", r, off);
+}
+
+static inline void check_unit(const question *q, const V(result) * r)
+{
+    quad n = 0;
+    double off;
+    for (int i = 0; i < DIM; i++) {
+        n += (quad)r->normal[i] * (quad)r->normal[i];
     }
     off = (double)((quad_sqrt(n) - 1) / (quad)U);
     if (!(fabs(off) <= 4)) {
@@ -324,31 +336,58 @@ static inline void check_witnesses(const question *q, const V(result) * r)
     }
 }
 
-/* The separation along the normal: whatever the normal, a lower bound of the truth. */
-static inline void check_normal(const question *q, const V(result) * r)
+static inline void check_witnesses(const question *q, const V(result) * r)
 {
-    const truth *t = &q->t;
-    quad n[DIM], back[DIM], a[DIM], b[DIM], along = 0, l = 0;
+    quad scale = scale_of_points(q, r), way = 0;
     double off;
+    if (!(scale > 0)) {
+        return;
+    }
+    /* of an overlap the point of intersect is no better than its bracket */
+    check_points_in(q, r, scale, r->upper < 0 ? in_u(q, at_one(q, r->upper) - at_one(q, r->lower), scale) : 0);
     for (int i = 0; i < DIM; i++) {
-        n[i] = (quad)r->normal[i];
-        back[i] = -n[i];
+        quad gap = at_one(q, r->point_b[i]) - at_one(q, r->point_a[i]);
+        way += gap * gap;
+    }
+    off = in_u(q, quad_sqrt(way) - positive(at_one(q, r->upper)), scale);
+    if (!(off <= WITNESS_ERROR && off >= -width_of(q))) {
+        broken(q, "the points do not realise upper, in u * span", r, off);
+    }
+    check_unit(q, r);
+}
+
+/* Of a body, without its radius, the farthest along sign n, relative to the truth's origin. */
+static inline quad height_of_body(const question *q, int k, const real *normal, int sign)
+{
+    quad n[DIM], x[DIM], along = 0, l = 0;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)normal[i] * (quad)sign;
         l += n[i] * n[i];
     }
-    farthest_of_body(&q->one.p.a, t->a.origin, 0, n, a);
-    farthest_of_body(&q->one.p.b, t->a.origin, 0, back, b);
+    farthest_of_body(k ? &q->one.p.b : &q->one.p.a, q->t.a.origin, 0, n, x);
     for (int i = 0; i < DIM; i++) {
-        along += n[i] * (b[i] - a[i]);
+        along += n[i] * x[i];
     }
-    along = along / quad_sqrt(l) - (quad)q->one.p.a.shape.radius - (quad)q->one.p.b.shape.radius;
-    off = in_u(q, at_one(q, r->lower) - along, q->span);
+    return along / quad_sqrt(l);
+}
+
+/* Whatever the normal, a lower bound of the truth. */
+static inline quad separation_along(const question *q, const real *normal)
+{
+    return -height_of_body(q, 0, normal, 1) - height_of_body(q, 1, normal, -1) - (quad)q->one.p.a.shape.radius -
+           (quad)q->one.p.b.shape.radius;
+}
+
+static inline void check_normal(const question *q, const V(result) * r)
+{
+    double off = in_u(q, at_one(q, r->lower) - separation_along(q, r->normal), q->span);
     if (q->tame && !(off <= WITNESS_ERROR)) {
         broken(q, "the normal does not realise lower, in u * span", r, off);
     }
 }
 
 /* What all answers share, true or false: numbers, order, counts. */
-static inline void check_form(const question *q, const V(result) * r, int status)
+static inline void check_form(const question *q, enum query asked, const V(result) * r, int status)
 {
     const V(options) *o = &q->options;
     uint32_t most = o->max_steps ? o->max_steps : 256;
@@ -370,7 +409,7 @@ static inline void check_form(const question *q, const V(result) * r, int status
         (double)r->supports > 4.0 * most + 64) { /* a warm start given up, and the reaches */
         broken(q, "took more steps than allowed", r, r->steps);
     }
-    if (status == GJK_LIMIT && (uint32_t)r->steps != most) {
+    if (status == GJK_LIMIT && asked != PENETRATION && (uint32_t)r->steps != most) { /* its limit may be the room */
         broken(q, "says limit before it", r, r->steps);
     }
 }
@@ -501,24 +540,26 @@ static inline int answered(const question *q, const V(result) * r, int status)
 }
 
 /* 0: refused, which was fair. */
-static inline int ask_either(question *q, int intersect, int swap, V(result) * r)
+static inline int ask_any(question *q, enum query asked, int swap, V(result) * r)
 {
-    static const char *const query[2][2] = {{"distance", "distance, swapped"}, {"intersect", "intersect, swapped"}};
+    static const char *const query[QUERIES][2] = {{"distance", "distance, swapped"},
+                                                  {"intersect", "intersect, swapped"},
+                                                  {"penetration", "penetration, swapped"}};
     const V(shape) *a = &q->s.p.a.shape, *b = &q->s.p.b.shape;
     int status;
-    q->query = query[intersect][swap];
+    q->query = query[asked][swap];
     memset(r, 0x5a, sizeof *r);
-    status = (intersect ? V(intersect) : V(distance))(swap ? b : a, swap ? a : b, q->given, r);
+    status = query_of[asked](swap ? b : a, swap ? a : b, q->given, r);
     if (!answered(q, r, status)) {
         return 0;
     }
-    check_form(q, r, status);
+    check_form(q, asked, r, status);
     return 1;
 }
 
 static inline int ask_distance(question *q, int swap, V(result) * r)
 {
-    if (!ask_either(q, 0, swap, r)) {
+    if (!ask_any(q, DISTANCE, swap, r)) {
         return 0;
     }
     if (!(r->lower >= 0)) {
@@ -538,7 +579,7 @@ static inline int ask_intersect(question *q, int swap, V(result) * r)
 {
     quad nearest = q->t.lower > 0 ? q->t.lower : q->t.upper < 0 ? -q->t.upper : 0;
     double off = in_u(q, nearest, q->span), shallow = q->known ? SHALLOW : SHALLOW_UNKNOWN;
-    if (!ask_either(q, 1, swap, r)) {
+    if (!ask_any(q, INTERSECT, swap, r)) {
         return 0;
     }
     check_bracket(q, r, q->t.lower, q->t.upper);
@@ -607,7 +648,7 @@ static inline int scales_exactly(const scene *s, int exponent)
 }
 
 /* The answer r, and the one to the pair in another unit, a power of two apart, have the same bits. */
-static inline void must_scale(question *q, int intersect, const V(result) * r, int exponent)
+static inline void must_scale(question *q, enum query asked, const V(result) * r, int exponent)
 {
     const int plain = VARIANT_FLOAT ? 26 : 290;
     scene s = q->s;
@@ -630,7 +671,7 @@ static inline void must_scale(question *q, int intersect, const V(result) * r, i
     multiply(&want.lower, 1, exponent);
     multiply(&want.upper, 1, exponent);
     memset(&big, 0x5a, sizeof big);
-    (intersect ? V(intersect) : V(distance))(&s.p.a.shape, &s.p.b.shape, &q->options, &big);
+    query_of[asked](&s.p.a.shape, &s.p.b.shape, &q->options, &big);
     if (want.value != big.value || want.lower != big.lower || want.upper != big.upper || want.status != big.status ||
         memcmp(want.normal, big.normal, sizeof want.normal) != 0) {
         print_result("in another unit", &big);

@@ -209,20 +209,17 @@ static enum trust read_cache(question *q, input *in, V(cache) * cache)
 
 /* ---- the question ---- */
 
-typedef int query_fn(const V(shape) *, const V(shape) *, const V(options) *, V(result) *);
-
 /* from: the first of the queries that refuse. */
-static void ask_refused(question *q, int from)
+static void ask_refused(question *q, enum query from)
 {
-    static query_fn *const queries[] = {V(distance), V(intersect), V(penetration)};
     static const char *const names[] = {"distance with bad options", "intersect with bad options",
                                         "penetration with bad options"};
-    for (int k = from; k < 3; k++) {
+    for (int k = (int)from; k < QUERIES; k++) {
         V(result) r, before;
         memset(&before, 0x5a, sizeof before);
         r = before;
         q->query = names[k];
-        int status = queries[k](&q->s.p.a.shape, &q->s.p.b.shape, q->given, &r);
+        int status = query_of[k](&q->s.p.a.shape, &q->s.p.b.shape, q->given, &r);
         if (status != GJK_BAD_ARGUMENT) {
             broken(q, "bad options were taken", &r, q->options.size);
         }
@@ -232,15 +229,15 @@ static void ask_refused(question *q, int from)
     }
 }
 
-static void ask_form(question *q, int intersect)
+static void ask_form(question *q, enum query asked)
 {
     V(result) r, before;
     memset(&before, 0x5a, sizeof before);
     r = before;
-    q->query = intersect ? "intersect from a spoiled cache" : "distance from a spoiled cache";
-    int status = (intersect ? V(intersect) : V(distance))(&q->s.p.a.shape, &q->s.p.b.shape, q->given, &r);
+    q->query = asked == INTERSECT ? "intersect from a spoiled cache" : "distance from a spoiled cache";
+    int status = query_of[asked](&q->s.p.a.shape, &q->s.p.b.shape, q->given, &r);
     if (status >= 0) {
-        check_form(q, &r, status);
+        check_form(q, asked, &r, status);
     } else if (status != GJK_BAD_SUPPORT || memcmp(&r, &before, sizeof r) != 0) {
         broken(q, "refused, but not for a support, or the result was touched", &r, status);
     }
@@ -261,9 +258,7 @@ static void ask_penetration(question *q, enum trust trust)
         }
         return;
     }
-    if (status != r.status || status > GJK_LIMIT || r.reserved != 0 || !(r.lower <= r.value && r.value <= r.upper)) {
-        broken(q, "not the form of an answer", &r, status);
-    }
+    check_form(q, PENETRATION, &r, status);
     if (trust == TRUE_POINTS) {
         check_bracket(q, &r, q->t.lower, q->t.upper);
     }
@@ -274,8 +269,8 @@ static void ask_both(question *q, enum trust trust)
 {
     V(result) d, i;
     if (trust == ANY_POINTS) {
-        ask_form(q, 0);
-        ask_form(q, 1);
+        ask_form(q, DISTANCE);
+        ask_form(q, INTERSECT);
     } else if (ask_distance(q, 0, &d) && ask_intersect(q, 0, &i)) {
         must_be_consistent(q, &d, &i);
     }
@@ -316,7 +311,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     memcpy(&q.given, &(unsigned char *){block}, sizeof block);
     announce(&q);
     if (!are_good(&q.options, tail)) {
-        ask_refused(&q, 0);
+        ask_refused(&q, DISTANCE);
     } else {
         forget_beyond_size(&q.options);
         q.may_refuse |= slack_exponent(&q) > (VARIANT_FLOAT ? 100 : 1000);
@@ -324,7 +319,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         if (is_good_workspace(&q.options)) {
             ask_penetration(&q, q.options.cache ? trust : TRUE_POINTS);
         } else {
-            ask_refused(&q, 2);
+            ask_refused(&q, PENETRATION);
         }
     }
     free(block);

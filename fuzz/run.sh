@@ -22,7 +22,7 @@ case ${1-} in '' | *[!0-9.]*) usage ;; esac
 minutes=$1
 shift
 if [ $# -eq 0 ]; then
-    for target in distance intersect options hostile; do
+    for target in distance intersect penetration options hostile; do
         for variant in gjk2 gjk2f gjk3 gjk3f; do set -- "$@" $target.$variant; done
     done
 fi
