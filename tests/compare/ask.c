@@ -14,12 +14,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-int load_peers(peer_list *list, const char *path)
+/* Adds the peers of one module. Whether it could be loaded. */
+static int load_module(peer_list *list, const char *path)
 {
     peers_fn *peers;
-    void *symbol, *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    void *symbol, *module = *path ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
     if (!module || !(symbol = dlsym(module, PEERS_FN))) {
-        fprintf(stderr, "%s\n", dlerror());
+        fprintf(stderr, "%s\n", *path ? dlerror() : "not built");
         return 0;
     }
     memcpy(&peers, &symbol, sizeof peers); /* C has no cast from object to function */
@@ -27,6 +28,42 @@ int load_peers(peer_list *list, const char *path)
         list->all[list->count++] = *p;
     }
     return 1;
+}
+
+int load_peers(peer_list *list, int count, char **arguments)
+{
+    const char *needs = getenv("GJK_COMPARE_NEEDS");
+    int needed = 0;
+    for (int k = 0; k < count; k++) {
+        char *path = strchr(arguments[k], '=');
+        if (!path || list->missing_count == MOST_PEERS) {
+            return -1;
+        }
+        *path++ = 0;
+        if (!load_module(list, path)) {
+            fprintf(stderr, "the peer %s is missing\n", arguments[k]);
+            list->missing[list->missing_count++] = arguments[k];
+            needed += needs && strstr(needs, arguments[k]);
+        }
+    }
+    return needed;
+}
+
+void print_peers(const peer_list *list)
+{
+    printf("\"peers\": [");
+    for (int k = 0; k < list->count; k++) {
+        const peer *p = list->all[k];
+        printf("%s{\"name\": \"%s\", \"version\": \"%s\", \"how\": \"%s\", \"how_deep\": \"%s\", \"dim\": %d, "
+               "\"single\": %d, \"distances\": %d, \"asked\": [%d, %d]}",
+               k ? ", " : "", p->name, p->version, p->how, p->how_deep, p->dim, p->single, p->distances,
+               p->query != NULL, p->penetration != NULL);
+    }
+    printf("], \"missing\": [");
+    for (int k = 0; k < list->missing_count; k++) {
+        printf("%s\"%s\"", k ? ", " : "", list->missing[k]);
+    }
+    printf("]");
 }
 
 static void *shared(size_t size)
@@ -41,16 +78,28 @@ static void *shared(size_t size)
 
 reply *reply_space(int count) { return shared((size_t)count * sizeof(reply)); }
 
+peer_query *query_of(const peer *p, enum question question) { return question == HOW_FAR ? p->query : p->penetration; }
+
 static int takes(const peer *p, const peer_set *s)
 {
+    if (s->core != PEER_POINTS || s->posed) {
+        return p->cores;
+    }
     return s->count > 0 && (p->most_points == 0 || s->count <= p->most_points) && (p->radii || s->radius == 0);
 }
 
-static void ask_one(const peer *p, const fed *pair, reply *r)
+int takes_pair(const peer *p, const fed *pair) { return takes(p, &pair->a) && takes(p, &pair->b); }
+
+static int is_number(const peer *p, enum question question, const peer_answer *x)
+{
+    return question == HOW_FAR ? !p->distances || isfinite(x->distance) : !x->meet || isfinite(x->depth);
+}
+
+static void ask_one(const peer *p, enum question question, const fed *pair, reply *r)
 {
     void *a = p->make(&pair->a), *b = p->make(&pair->b);
-    int failed = !a || !b || p->query(a, b, &r->answer) != 0;
-    r->outcome = failed || (p->distances && !isfinite(r->answer.distance)) ? GAVE_UP : ANSWERED;
+    int failed = !a || !b || query_of(p, question)(a, b, &r->answer) != 0;
+    r->outcome = failed || !is_number(p, question, &r->answer) ? GAVE_UP : ANSWERED;
     if (a) {
         p->discard(a);
     }
@@ -60,22 +109,23 @@ static void ask_one(const peer *p, const fed *pair, reply *r)
 }
 
 /* In the child, from *at on. What it dies of, if it does, is told by the signal. */
-static void ask_the_rest(const peer *p, const fed *pairs, int count, reply *replies, volatile int *at)
+static void ask_the_rest(const peer *p, enum question question, const fed *pairs, int count, reply *replies,
+                         volatile int *at)
 {
     struct itimerval limit = {{0, 0}, {0, (int)(TIME_LIMIT * 1e6)}};
     int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, 1);
     dup2(nowhere, 2);
     for (; *at < count; ++*at) {
-        if (takes(p, &pairs[*at].a) && takes(p, &pairs[*at].b)) {
+        if (takes_pair(p, &pairs[*at])) {
             setitimer(ITIMER_VIRTUAL, &limit, NULL);
-            ask_one(p, &pairs[*at], &replies[*at]);
+            ask_one(p, question, &pairs[*at], &replies[*at]);
         }
     }
     _exit(0);
 }
 
-void ask_peer(const peer *p, const fed *pairs, int count, reply *replies)
+void ask_peer(const peer *p, enum question question, const fed *pairs, int count, reply *replies)
 {
     static volatile int *at;
     at = at ? at : shared(sizeof *at);
@@ -86,7 +136,7 @@ void ask_peer(const peer *p, const fed *pairs, int count, reply *replies)
         fflush(NULL);
         child = fork();
         if (child == 0) {
-            ask_the_rest(p, pairs, count, replies, at);
+            ask_the_rest(p, question, pairs, count, replies, at);
         }
         while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
         }

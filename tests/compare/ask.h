@@ -11,11 +11,14 @@
 
 typedef struct peer_list {
     const peer *all[MOST_PEERS];
-    int count;
+    const char *missing[MOST_PEERS];
+    int count, missing_count;
 } peer_list;
 
+enum question { HOW_FAR, HOW_DEEP };
+
 enum outcome {
-    NOT_ASKED, /* too many points, a radius, or out of the range of its numbers */
+    NOT_ASKED, /* too many points, a radius, another core, or out of the range of its numbers */
     ANSWERED,
     GAVE_UP, /* said so itself, or answered no number */
     CRASHED,
@@ -29,12 +32,19 @@ typedef struct reply {
     peer_answer answer;
 } reply;
 
-/* Adds the peers of one module. Whether it could be loaded. */
-int load_peers(peer_list *list, const char *path);
+/* Loads the peers of NAME=MODULE each; where that cannot be done, says so and notes the name as missing. Returns how
+ * many are missing that GJK_COMPARE_NEEDS names in the environment, -1: bad arguments. */
+int load_peers(peer_list *list, int count, char **arguments);
+/* As two members of a JSON object. */
+void print_peers(const peer_list *list);
+
+/* The function that answers; NULL: it has none. */
+peer_query *query_of(const peer *p, enum question question);
+int takes_pair(const peer *p, const fed *pair);
 
 /* The replies come back in shared memory that lives to the end of the process. */
 reply *reply_space(int count);
 
-void ask_peer(const peer *p, const fed *pairs, int count, reply *replies);
+void ask_peer(const peer *p, enum question question, const fed *pairs, int count, reply *replies);
 
 #endif

@@ -16,6 +16,8 @@ typedef struct fed {
 } fed;
 
 void find_fed_truth(fed *f);
+/* Of a pair whose truth was found, along a normal from a to b. 0: it is not unit. */
+int find_fed_separation(const fed *f, const double *normal, quad *separation);
 void print_fed_case(FILE *out, const fed *f, const char *query);
 
 #endif

@@ -20,6 +20,7 @@ VARIANTS = {
     "gjk3f": "3-D, float",
 }
 CASES = ["museum", "worked cases"]
+FAR, DEEP = range(2)  # what a peer may be asked
 
 HOW_TO_READ = """\
 ## How to read it
@@ -37,8 +38,8 @@ Ours:
 
 | column | what it says |
 |---|---|
-| failures | no answer, or one that ended early; a polytope's distance off by more than 4 u·scale; a tight one off by more than 1 ulp, wider than 2 ulp, or not 0 in exact contact; a verdict left open more than 300 roundings away from contact |
-| violations | brackets that miss the truth: of `distance`, of `distance` with `tight`, of `intersect` |
+| failures | no answer, or one that ended early; a polytope's distance off by more than 4 u·scale; a tight one off by more than 1 ulp, wider than 2 ulp, or not 0 in exact contact; a verdict left open more than 300 roundings away from contact; those of `penetration`, below |
+| violations | brackets that miss the truth: of `distance`, of `distance` with `tight`, of `intersect`, of `penetration` |
 | error | the largest error of `distance`, in u·scale |
 | width | the widest bracket of `distance`, `upper - lower`, in u·scale |
 | tight error, width | the same with `options.tight`, in ulp of the truth: relative, however small the gap; – where the family has no bodies that it is for |
@@ -53,6 +54,21 @@ the others: *(of 52)* says about how many. Each is asked in a process of its own
 |---|---|
 | of a peer that says only whether they meet | wrong verdicts beyond 1e-9 of the scale from contact + wrong ones nearer than that, but beyond 4 u·scale |
 | of a peer that measures | the largest error, in u·scale; where it is above 4, then how many pairs are off by more than 4 / 16 / 1000 u·scale |
+"""
+
+HOW_TO_READ_DEPTHS = """\
+How deep: `penetration` of those pairs that overlap or touch, or may. Ours, in u·scale:
+
+| column | what it says |
+|---|---|
+| failures | no answer; of bodies with known corners and no radius also a depth off by more than 4 u·scale, a bracket wider than 16, a normal along which b must be moved further than the depth by more than 16 |
+| error, width, excess | the largest error, the widest bracket and the most that the way along the normal is longer than the depth, of bodies with known corners and no radius |
+| others | the largest error and the widest bracket of all other bodies; of round ones that is how far 64 corners go |
+| calls | mean and largest number of support calls, one on each shape counted as one |
+
+The peers, in scales, not in u: the largest error of a depth, the largest excess of a way out; then how many depths are
+off by more than a hundredth of themselves, and how many answers failed: *missed* an overlap that is deeper than
+rounding, or gave it no depth above 0; gave *no normal* of length 1; or none at all.
 """
 
 
@@ -70,11 +86,19 @@ def short(x):
     return f"{mantissa}e{int(exponent)}"
 
 
+def small(x):
+    """The same of what may be far below 1."""
+    if x is None:
+        return "∞"
+    mantissa, exponent = f"{x:.1e}".split("e")
+    return "0" if x == 0 else short(x) if 0.01 <= x < 9999.5 else f"{mantissa}e{int(exponent)}"
+
+
 class Results:
     """All rows of all variants."""
 
     def __init__(self, paths):
-        self.heads, self.ours, self.theirs = {}, {}, {}
+        self.heads, self.ours, self.theirs, self.depths = {}, {}, {}, {}
         for path in paths:
             with open(path, encoding="utf-8") as lines:
                 rows = lines.read().splitlines()
@@ -82,22 +106,24 @@ class Results:
                 sys.exit(f"{path} is not complete")
             rows = [json.loads(row) for row in rows]
             self.heads[rows[0]["variant"]] = rows[0]
+            theirs = {"peer": self.theirs, "peer depth": self.depths}
             for row in rows[1:-1]:
                 if row["row"] == "ours":
                     self.ours[row["variant"], row["group"]] = row
                 else:
-                    self.theirs[row["variant"], row["group"], row["peer"]] = row
+                    theirs[row["row"]][row["variant"], row["group"], row["peer"]] = row
         self.variants = [v for v in VARIANTS if v in self.heads]
 
     def groups(self, variant):
         return [group for v, group in self.ours if v == variant]
 
-    def peers(self, variant):
+    def peers(self, variant, question=FAR):
         head = self.heads[variant]
-        return [p for p in head["peers"] if p["dim"] == head["dim"]]
+        return [p for p in head["peers"] if p["dim"] == head["dim"] and p["asked"][question]]
 
-    def all_peers(self):
-        return next(iter(self.heads.values()))["peers"]
+    def all_peers(self, question=None):
+        peers = next(iter(self.heads.values()))["peers"]
+        return [p for p in peers if question is None or p["asked"][question]]
 
     def missing(self):
         return next(iter(self.heads.values()))["missing"]
@@ -105,9 +131,9 @@ class Results:
     def total(self, variant, key):
         return sum(row[key] for (v, _), row in self.ours.items() if v == variant)
 
-    def worst(self, variant, key):
+    def worst(self, variant, key, of=lambda row: row):
         """The largest and its group; nothing is larger than what is not a number."""
-        rows = [(row[key], group) for (v, group), row in self.ours.items() if v == variant]
+        rows = [(of(row)[key], group) for (v, group), row in self.ours.items() if v == variant]
         return max(rows, key=lambda r: float("inf") if r[0] is None else r[0])
 
     def failed(self):
@@ -132,12 +158,28 @@ def cell(peer, row, pairs):
             text += ": " + " / ".join(map(str, row["over"]))
     else:
         text = f"{row['wrong']} + {row['near_wrong']}" if row["wrong"] or row["near_wrong"] else "0"
-    for key, word in (("gave_up", "no answer"), ("crashed", "crashed"), ("hung", "hung")):
-        if row[key]:
-            text += f", {row[key]} {word}"
+    text = ", ".join([text, *failures_of(row)])
     if row["asked"] != pairs:
         text += f" (of {row['asked']})"
     return text
+
+
+FAILURES = {"gave_up": "no answer", "crashed": "crashed", "hung": "hung", "missed": "missed", "no_normal": "no normal"}
+
+
+def failures_of(row):
+    return [f"{row[key]} {word}" for key, word in FAILURES.items() if row.get(key)]
+
+
+def depth_cell(row, pairs):
+    if not row["asked"]:
+        return "–"
+    text = f"{small(row['error'])}, {small(row['excess'])}"
+    bad = [f"{row['wrong']} wrong"] if row["wrong"] else []
+    bad += failures_of(row)
+    if bad:
+        text += ": " + ", ".join(bad)
+    return text if row["asked"] == pairs else f"{text} (of {row['asked']})"
 
 
 def line(cells):
@@ -166,6 +208,66 @@ def table(results, variant, groups, first="family"):
         ours = results.ours[variant, group]
         cells = [cell(p, results.theirs[variant, group, p["name"]], ours["pairs"]) for p in peers]
         yield line([group, *our_cells(ours), *cells])
+
+
+OUR_DEPTHS = ["overlap or touch", "failures", "violations", "error", "width", "excess", "others: error", "width", "calls"]
+
+
+def our_depth_cells(row):
+    bad = [f"**{row[k]}**" if row[k] else "0" for k in ("failures", "violations")]
+    sharp = [short(row[k]) if row["sharp"] else "–" for k in ("error", "width", "excess")]
+    others = [short(row[k]) if row["sharp"] < row["pairs"] else "–" for k in ("round_error", "round_width")]
+    return [str(row["pairs"]), *bad, *sharp, *others, f"{row['mean_calls']:.1f}, {row['max_calls']:g}"]
+
+
+def depth_table(results, variant, groups, first="family"):
+    """Of those groups that have pairs which overlap or touch."""
+    peers = results.peers(variant, DEEP)
+    yield line([first, *OUR_DEPTHS, *(p["name"] for p in peers)])
+    yield rule(1 + len(OUR_DEPTHS) + len(peers))
+    for group in groups:
+        ours = results.ours[variant, group]["deep"]
+        if ours["pairs"]:
+            cells = [depth_cell(results.depths[variant, group, p["name"]], ours["pairs"]) for p in peers]
+            yield line([group, *our_depth_cells(ours), *cells])
+
+
+def depth_summary(results):
+    columns = ["largest error", "widest bracket", "longest way", "others: largest error", "most calls"]
+    yield line(["`penetration`", "overlap or touch", "failures", "violations", *columns])
+    yield rule(9)
+    for v in results.variants:
+        rows = [row["deep"] for (w, _), row in results.ours.items() if w == v]
+        cells = [str(sum(row[k] for row in rows)) for k in ("pairs", "failures", "violations")]
+        for key in ("error", "width", "excess", "round_error", "max_calls"):
+            value, group = results.worst(v, key, lambda row: row["deep"])
+            cells.append(f"{short(value)} ({group})" if value else "0")
+        yield line([f"`{v}`, {VARIANTS[v]}", *cells])
+
+
+def failed_of(row):
+    return sum(row[key] for key in FAILURES)
+
+
+def depth_lines(results):
+    """Of each peer how often its depth is wrong or missing."""
+    for peer in results.all_peers(DEEP):
+        rows = [row for (_, _, name), row in results.depths.items() if name == peer["name"] and row["asked"]]
+        for extreme, where in ((0, ""), (1, " At extreme lengths: ")):
+            some = [row for row in rows if row["extreme"] == extreme]
+            if not some:
+                continue
+            wrong, failed, asked = (sum(map(f, some)) for f in (lambda r: r["wrong"], failed_of, lambda r: r["asked"]))
+            what = {word: sum(row[key] for row in some) for key, word in FAILURES.items()}
+            words = ", ".join(f"{count} {word}" for word, count in what.items() if count)
+            text = f"{wrong} depths wrong and {failed} answers failed{f' ({words})' if words else ''} of {asked}"
+            if not extreme:
+                largest = max(some, key=error_of)
+                place = f"{largest['group']} of `{largest['variant']}`"
+                text = f"- **{peer['name']}**: {text}; largest error {small(largest['error'])} scales, in {place}."
+            else:
+                text = f"{text}."
+            yield ("  " if extreme else "") + where.lstrip() + text
 
 
 def summary(results):
@@ -198,7 +300,7 @@ def sums(peer, rows):
 
 def peer_lines(results):
     """Of each peer how often it is wrong, and the families where it is most."""
-    for peer in results.all_peers():
+    for peer in results.all_peers(FAR):
         rows = [row for (_, _, name), row in results.theirs.items() if name == peer["name"] and row["asked"]]
         usual, extreme = ([r for r in rows if r["extreme"] == k] for k in (0, 1))
         if not usual:
@@ -269,9 +371,23 @@ def truth_text(example):
     return "touching"
 
 
+SILENCES = {"gave up": "gives no answer", "crashed": "crashes", "hung": "does not come back"}
+
+
+def said_how_deep(example):
+    if example["meet"]:
+        return f"says {example['depth'] or 0:.9g} deep" + (
+            f", off by {small(example['error'])} scales" if example["failure"] == "sound" else ""
+        )
+    return "says that they do not overlap"
+
+
 def said(peer, example):
-    if example["outcome"] != "answered":
-        return {"gave up": "gives no answer", "crashed": "crashes", "hung": "does not come back"}[example["outcome"]]
+    silence = SILENCES.get(example.get("outcome", example.get("failure", "").replace("_", " ")))
+    if silence:
+        return silence
+    if "depth" in example:
+        return said_how_deep(example)
     if peer["distances"]:
         return f"says {example['distance']:.9g}, off by {short(example['error'])} u·scale"
     return "says that they meet" if example["meet"] else "says that they do not meet"
@@ -282,13 +398,27 @@ def is_short(row):
     return len(json.dumps(row.get("example"))) <= 3000
 
 
-def examples(results):
-    for peer in results.all_peers():
-        rows = worst_rows(
+def worst_depths(rows):
+    """At most two, of different families."""
+    rows = [row for row in rows if failed_of(row) + row["wrong"]]
+    order = sorted(rows, key=lambda r: (failed_of(r) + r["wrong"], error_of(r)), reverse=True)
+    groups = {row["group"]: row for row in reversed(order)}
+    return [row for row in order if groups[row["group"]] is row][:2]
+
+
+def shown(results, peer):
+    """The rows of a peer whose examples can be shown."""
+    for rows, pick in ((results.theirs, worst_rows), (results.depths, worst_depths)):
+        yield from pick(
             row
-            for (_, _, name), row in results.theirs.items()
+            for (_, _, name), row in rows.items()
             if name == peer["name"] and not row["extreme"] and is_short(row)
         )
+
+
+def examples(results):
+    for peer in results.all_peers():
+        rows = list(shown(results, peer))
         if not rows:
             continue
         yield ""
@@ -329,6 +459,17 @@ def machine():
     return f"{model}{platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
 
 
+def peer_table(peers, missing, asked=("how", "how_deep")):
+    heads = {"how": "how far: asked by", "how_deep": "how deep: asked by"}
+    yield line(["peer", "version", *(heads[k] for k in asked), "precision"])
+    yield rule(3 + len(asked), 3 + len(asked))
+    for p in peers:
+        how = [p[k] or "–" for k in asked]
+        yield line([p["name"], p["version"], *how, f"{p['dim']}-D, {'float' if p['single'] else 'double'}"])
+    for name in missing:
+        yield line([name, "missing: not installed", *("" for _ in asked), ""])
+
+
 def page(results, command):
     head = next(iter(results.heads.values()))
     yield "<!-- SPDX-License-Identifier: MIT -->"
@@ -344,12 +485,7 @@ def page(results, command):
     yield f"{time.strftime('%Y-%m-%d', time.gmtime())}: gjk {head['version']}, {head['pairs']} pairs of each family in"
     yield f"each variant, seed {head['seed']}; {head['compiler']}; {machine()}."
     yield ""
-    yield line(["peer", "version", "asked by", "precision"])
-    yield rule(4, 4)
-    for p in results.all_peers():
-        yield line([p["name"], p["version"], p["how"], f"{p['dim']}-D, {'float' if p['single'] else 'double'}"])
-    for name in results.missing():
-        yield line([name, "missing: not installed", "", ""])
+    yield from peer_table(results.all_peers(), results.missing())
     yield ""
     yield "## What stands out"
     yield ""
@@ -358,12 +494,21 @@ def page(results, command):
     yield ""
     yield from summary(results)
     yield ""
+    yield from depth_summary(results)
+    yield ""
     yield "The others, who were asked about those pairs that they can take. A distance counts as wrong beyond 1000 u·scale,"
     yield "a verdict where the bodies are further than 1e-9 of the scale from contact."
     yield ""
     yield from peer_lines(results)
     yield ""
+    yield "How deep, of pairs that overlap or touch; a depth counts as wrong beyond a hundredth of itself, and beyond"
+    yield "rounding:"
+    yield ""
+    yield from depth_lines(results)
+    yield ""
     yield HOW_TO_READ.rstrip()
+    yield ""
+    yield HOW_TO_READ_DEPTHS.rstrip()
     yield ""
     yield from families(dict.fromkeys(g for v in results.variants for g in results.groups(v) if g not in CASES))
     for v in results.variants:
@@ -371,17 +516,21 @@ def page(results, command):
         yield f"## {v}: {VARIANTS[v]}"
         yield ""
         yield from table(results, v, [g for g in results.groups(v) if g not in CASES])
+        yield ""
+        yield from depth_table(results, v, [g for g in results.groups(v) if g not in CASES], "how deep")
     yield ""
     yield "## The museum and the worked cases"
     for v in results.variants:
         yield ""
         yield from table(results, v, [g for g in CASES if (v, g) in results.ours], v)
+        yield ""
+        yield from depth_table(results, v, [g for g in CASES if (v, g) in results.ours], f"{v}, how deep")
     yield ""
     yield "## Cases to replay"
     yield ""
     yield "Of each peer up to three families, extreme lengths apart, where it is wrong most often or else furthest off, and"
-    yield "of each the smallest pair that shows it. The numbers are those that it was fed. `gjk query`, which comes with the"
-    yield "Python package, says what ours answers: `echo 'CASE' | gjk query`."
+    yield "of each the smallest pair that shows it; then two where its depth is. The numbers are those that it was fed. `gjk"
+    yield "query`, which comes with the Python package, says what ours answers: `echo 'CASE' | gjk query`."
     yield from examples(results)
 
 

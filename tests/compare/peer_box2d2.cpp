@@ -43,8 +43,9 @@ int query(const void *a, const void *b, peer_answer *out)
 
 void discard(void *made) { delete static_cast<polygon *>(made); }
 
-const peer box2d = {"Box2D 2.4", PEER_VERSION, "b2Distance, cold", 2, 1, b2_maxPolygonVertices, 1, 1, make,
-                    query,       discard};
+const peer box2d = {
+    "Box2D 2.4", PEER_VERSION, "b2Distance, cold", "", 2, 1, b2_maxPolygonVertices, 1, 0, 1, make, discard,
+    query,       nullptr};
 const peer *const all[] = {&box2d, nullptr};
 
 } // namespace

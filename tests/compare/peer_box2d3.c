@@ -35,7 +35,8 @@ static int query(const void *a, const void *b, peer_answer *out)
 const peer *const *gjk_peers(void)
 {
     static const peer box2d = {
-        "Box2D 3", PEER_VERSION, "b2ShapeDistance, cold", 2, 1, B2_MAX_POLYGON_VERTICES, 1, 1, make, query, free};
+        "Box2D 3", PEER_VERSION, "b2ShapeDistance, cold", "", 2, 1, B2_MAX_POLYGON_VERTICES, 1, 0, 1, make, free,
+        query,     NULL};
     static const peer *const all[] = {&box2d, NULL};
     return all;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Bullet: the distance between two hulls by its pair detector, whose margins are radii. */
+/* Bullet: the distance between two hulls, or their depth, by its pair detector, whose margins are radii. */
 #include "peer.h"
 
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -23,19 +23,24 @@ void *make(const peer_set *set)
     return hull;
 }
 
-int query(const void *a, const void *b, peer_answer *out)
+int ask(const void *a, const void *b, btPointCollector *answer)
 {
     const btConvexHullShape *hull_a = static_cast<const btConvexHullShape *>(a);
     const btConvexHullShape *hull_b = static_cast<const btConvexHullShape *>(b);
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
-    btPointCollector answer;
     btGjkPairDetector detector(hull_a, hull_b, &simplex, &depth);
     btGjkPairDetector::ClosestPointInput in;
     in.m_transformA.setIdentity();
     in.m_transformB.setIdentity();
-    detector.getClosestPoints(in, answer, nullptr);
-    if (!answer.m_hasResult) {
+    detector.getClosestPoints(in, *answer, nullptr);
+    return !answer->m_hasResult;
+}
+
+int query(const void *a, const void *b, peer_answer *out)
+{
+    btPointCollector answer;
+    if (ask(a, b, &answer)) {
         return 1;
     }
     out->meet = !(answer.m_distance > 0);
@@ -43,19 +48,26 @@ int query(const void *a, const void *b, peer_answer *out)
     return 0;
 }
 
+/* Its normal points from b to a. */
+int penetration(const void *a, const void *b, peer_answer *out)
+{
+    btPointCollector answer;
+    if (ask(a, b, &answer)) {
+        return 1;
+    }
+    out->meet = !(answer.m_distance > 0);
+    out->depth = -double(answer.m_distance);
+    for (int i = 0; i < 3; i++) {
+        out->normal[i] = -double(answer.m_normalOnBInWorld[i]);
+    }
+    return 0;
+}
+
 void discard(void *made) { delete static_cast<btConvexHullShape *>(made); }
 
-const peer bullet = {"Bullet",
-                     PEER_VERSION,
-                     "btGjkPairDetector with EPA, margins = radii",
-                     3,
-                     sizeof(btScalar) == sizeof(float),
-                     0,
-                     1,
-                     1,
-                     make,
-                     query,
-                     discard};
+#define HOW "btGjkPairDetector with EPA, margins = radii"
+const peer bullet = {"Bullet", PEER_VERSION, HOW,     HOW,   3,          sizeof(btScalar) == sizeof(float), 0, 1, 0,
+                     1,        make,         discard, query, penetration};
 const peer *const all[] = {&bullet, nullptr};
 
 } // namespace

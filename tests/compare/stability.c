@@ -8,10 +8,13 @@
 #include "../cases.h"
 #include "../exact.h"
 #include "../pairs.h"
-#include "../truth.h"
-#include "ask.h"
+#include "../settle.h"
+#include "along.h"
+#include "judge.h"
 
-#define VALUE_ERROR 4.0   /* in u * scale, of polytopes */
+#define VALUE_ERROR 4.0  /* in u * scale, of polytopes */
+#define DEPTH_WIDTH 16.0 /* likewise */
+#define NORMAL_EXCESS 16.0
 #define TIGHT_ERROR 1.0   /* in ulp */
 #define TIGHT_WIDTH 2.0   /* likewise */
 #define TELLS 300.0       /* in u * span: farther apart, or deeper, intersect must say so */
@@ -35,8 +38,6 @@ static int is_extreme_group(int group) { return group < FAMILIES && is_extreme((
 
 static uint64_t seed;
 static long pairs_per_family;
-static const char *missing[MOST_PEERS];
-static int missing_count;
 
 static int is_museum(const test_case *c) { return strcmp(c->group, "museum") == 0; }
 
@@ -78,6 +79,10 @@ typedef struct tally {
     int group;
     long pairs, apart, meeting, failures, violations, tight_pairs;
     double max_error, max_round_error, max_width, max_tight_error, max_tight_width, sum_calls, max_calls;
+    struct {
+        long pairs, sharp, limits, failures, violations;
+        double max_error, max_width, max_excess, max_round_error, max_round_width, sum_calls, max_calls;
+    } deep; /* of penetration, sharp: of bodies with corners and no radius */
 } tally;
 
 static struct {
@@ -118,8 +123,6 @@ static void violated(const char *what, const V(result) * r)
 
 /* What lies below the least normal number counts as one unit. */
 static double in_u(quad x, quad scale) { return (double)(x / (scale * (quad)U + (quad)REAL_MIN)); }
-
-static quad off(quad value, quad low, quad high) { return value > high ? value - high : value < low ? low - value : 0; }
 
 static void try_distance(void)
 {
@@ -209,6 +212,74 @@ static void try_intersect(void)
     }
     if (!(r.upper <= 0) && in_u(-t->upper, now.span) > TELLS) {
         failed("intersect: not seen to meet, in u * span", in_u(-t->upper, now.span), &r);
+    }
+}
+
+/* Whether u * scale is a normal number. Below, brackets must hold, but no limits are set. */
+static int is_normal(void) { return now.truth->scale * (quad)U >= (quad)REAL_MIN; }
+
+/* How much further b must be moved along the normal than the depth, in u * scale. */
+static double excess_of(const V(result) * r)
+{
+    quad n[DIM], along;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)r->normal[i];
+    }
+    if (!is_unit(n)) {
+        return HUGE_VAL;
+    }
+    along = separation_along(now.a, now.b, n);
+    return in_u(positive(now.truth->lower - along), now.truth->scale);
+}
+
+static void try_sharp_depth(const V(result) * r, double error, double width)
+{
+    tally *s = now.tally;
+    double excess = excess_of(r);
+    s->deep.sharp++;
+    s->deep.max_error = fmax(s->deep.max_error, error);
+    s->deep.max_width = fmax(s->deep.max_width, width);
+    s->deep.max_excess = fmax(s->deep.max_excess, excess);
+    if (!(error <= VALUE_ERROR)) {
+        failed("penetration: the value is off, in u * scale", error, r);
+    }
+    if (!(width <= DEPTH_WIDTH)) {
+        failed("penetration: the bracket is wide, in u * scale", width, r);
+    }
+    if (!(excess <= NORMAL_EXCESS)) {
+        failed("penetration: the normal is not the way out, in u * scale", excess, r);
+    }
+}
+
+/* Of bodies that meet, or may; those with corners and no radius by exact truth. */
+static void try_penetration(int sharp)
+{
+    const truth *t = now.truth;
+    tally *s = now.tally;
+    double error, width;
+    V(result) r;
+    memset(&r, 0, sizeof r);
+    s->deep.pairs++;
+    if (V(penetration)(&now.a->shape, &now.b->shape, NULL, &r) < 0) {
+        failed("penetration: no answer", r.status, &r);
+        return;
+    }
+    if ((quad)r.lower > t->upper || (quad)r.upper < t->lower || !(r.lower <= r.value && r.value <= r.upper)) {
+        violated("penetration: the bracket misses the truth", &r);
+    }
+    s->deep.limits += r.status == GJK_LIMIT;
+    s->deep.sum_calls += r.supports / 2.0;
+    s->deep.max_calls = fmax(s->deep.max_calls, r.supports / 2.0);
+    if (!is_normal()) {
+        return;
+    }
+    error = in_u(off((quad)r.value, t->lower, t->upper), t->scale);
+    width = in_u((quad)r.upper - (quad)r.lower, t->scale);
+    if (sharp) {
+        try_sharp_depth(&r, error, width);
+    } else {
+        s->deep.max_round_error = fmax(s->deep.max_round_error, error);
+        s->deep.max_round_width = fmax(s->deep.max_round_width, width);
     }
 }
 
@@ -317,15 +388,6 @@ static void judge(peer_tally *s, const peer *p, const fed *f, const reply *r, lo
 
 /* ---- what is printed ---- */
 
-static void print_number(const char *key, double x)
-{
-    if (isfinite(x)) {
-        printf(", \"%s\": %.9g", key, x);
-    } else {
-        printf(", \"%s\": null", key);
-    }
-}
-
 static void print_tally(const tally *s)
 {
     printf(
@@ -339,7 +401,17 @@ static void print_tally(const tally *s)
     print_number("tight_width", s->max_tight_width);
     print_number("mean_calls", s->pairs ? s->sum_calls / (double)s->pairs : 0);
     print_number("max_calls", s->max_calls);
-    printf("}\n");
+    printf(", \"deep\": {\"pairs\": %ld, \"sharp\": %ld, \"limits\": %ld, \"failures\": %ld, "
+           "\"violations\": %ld",
+           s->deep.pairs, s->deep.sharp, s->deep.limits, s->deep.failures, s->deep.violations);
+    print_number("error", s->deep.max_error);
+    print_number("width", s->deep.max_width);
+    print_number("excess", s->deep.max_excess);
+    print_number("round_error", s->deep.max_round_error);
+    print_number("round_width", s->deep.max_round_width);
+    print_number("mean_calls", s->deep.pairs ? s->deep.sum_calls / (double)s->deep.pairs : 0);
+    print_number("max_calls", s->deep.max_calls);
+    printf("}}\n");
 }
 
 static void print_peer_tally(const peer *p, int group, const peer_tally *s, const fed *pairs, const reply *replies)
@@ -371,41 +443,52 @@ static void print_head(const peer_list *peers)
 {
     printf(
         "{\"row\": \"head\", \"variant\": \"%s\", \"dim\": %d, \"precision\": \"%s\", \"pairs\": %ld, \"seed\": %llu, "
-        "\"version\": \"%s\", \"compiler\": \"%s\", \"peers\": [",
+        "\"version\": \"%s\", \"compiler\": \"%s\", ",
         VARIANT, DIM, PRECISION, pairs_per_family, (unsigned long long)seed, GJK_TEST_VERSION, GJK_TEST_COMPILER);
-    for (int k = 0; k < peers->count; k++) {
-        const peer *p = peers->all[k];
-        printf("%s{\"name\": \"%s\", \"version\": \"%s\", \"how\": \"%s\", \"dim\": %d, \"single\": %d, "
-               "\"most_points\": %d, "
-               "\"radii\": %d, \"distances\": %d}",
-               k ? ", " : "", p->name, p->version, p->how, p->dim, p->single, p->most_points, p->radii, p->distances);
-    }
-    printf("], \"missing\": [");
-    for (int k = 0; k < missing_count; k++) {
-        printf("%s\"%s\"", k ? ", " : "", missing[k]);
-    }
-    printf("]}\n");
+    print_peers(peers);
+    printf("}\n");
 }
 
 /* ---- all of it ---- */
 
-static void one_group(tally *s, const peer_list *peers)
+static fed *fed_pairs[2]; /* to peers in double, in float */
+static reply *replies;
+
+static void ask_how_far(const peer *p, const tally *s)
 {
-    static truth t;
-    long most = s->group < FAMILIES ? pairs_per_family : (long)C(_count);
-    int single[2] = {0, 0};
-    fed *fed_pairs[2] = {NULL, NULL};
-    reply *replies = reply_space((int)most);
-    for (int k = 0; k < peers->count; k++) {
-        single[peers->all[k]->single] |= peers->all[k]->dim == DIM;
+    const fed *pairs = fed_pairs[p->single];
+    peer_tally theirs;
+    memset(&theirs, 0, sizeof theirs);
+    theirs.example = -1;
+    ask_peer(p, HOW_FAR, pairs, (int)s->pairs, replies);
+    for (long i = 0; i < s->pairs; i++) {
+        judge(&theirs, p, &pairs[i], &replies[i], i);
     }
-    for (int k = 0; k < 2; k++) {
-        fed_pairs[k] = calloc((size_t)most, sizeof *fed_pairs[k]);
-        if (!fed_pairs[k]) {
-            abort();
+    print_peer_tally(p, s->group, &theirs, pairs, replies);
+}
+
+/* Of pairs that are apart it is not asked. */
+static void ask_how_deep(const peer *p, const tally *s)
+{
+    const fed *pairs = fed_pairs[p->single];
+    depth_tally theirs;
+    start_depth_tally(&theirs);
+    ask_peer(p, HOW_DEEP, pairs, (int)s->pairs, replies);
+    for (long i = 0; i < s->pairs; i++) {
+        if (replies[i].outcome != NOT_ASKED && !(pairs[i].lower > 0)) {
+            judge_depth(&theirs, p, &pairs[i], &replies[i], i);
         }
     }
-    now.tally = s;
+    printf("{\"row\": \"peer depth\", \"variant\": \"%s\", \"group\": \"%s\", \"peer\": \"%s\", \"extreme\": %d",
+           VARIANT, group_name(s->group), p->name, is_extreme_group(s->group));
+    print_depth_tally(&theirs, pairs, replies);
+    printf("}\n");
+}
+
+static void try_pairs(tally *s, const int *single)
+{
+    static truth t;
+    int sharp = 0;
     now.truth = &t;
     for (now.index = 0; get_pair(s->group, now.index, &now.a, &now.b, &t); now.index++) {
         now.span = span_of_pair(now.a, now.b);
@@ -419,27 +502,49 @@ static void one_group(tally *s, const peer_list *peers)
         }
         try_distance();
         try_intersect();
+        if (!(t.lower > 0)) {
+            sharp = now.exact && !(now.a->shape.radius > 0) && !(now.b->shape.radius > 0);
+            sharp = settle(&t, &exactly, now.a, now.b) && sharp;
+            if (!(t.lower > 0)) {
+                long failures = s->failures, violations = s->violations;
+                try_penetration(sharp);
+                s->deep.failures += s->failures - failures;
+                s->deep.violations += s->violations - violations;
+            }
+        }
         for (int k = 0; k < 2; k++) {
             if (single[k]) {
                 feed_pair(&fed_pairs[k][now.index], k);
             }
         }
     }
+}
+
+static void one_group(tally *s, const peer_list *peers)
+{
+    long most = s->group < FAMILIES ? pairs_per_family : (long)C(_count);
+    int single[2] = {0, 0};
+    replies = reply_space((int)most);
+    for (int k = 0; k < peers->count; k++) {
+        single[peers->all[k]->single] |= peers->all[k]->dim == DIM;
+    }
+    for (int k = 0; k < 2; k++) {
+        fed_pairs[k] = calloc((size_t)most, sizeof *fed_pairs[k]);
+        if (!fed_pairs[k]) {
+            abort();
+        }
+    }
+    now.tally = s;
+    try_pairs(s, single);
     print_tally(s);
     for (int k = 0; k < peers->count; k++) {
         const peer *p = peers->all[k];
-        const fed *pairs = fed_pairs[p->single];
-        peer_tally theirs;
-        memset(&theirs, 0, sizeof theirs);
-        theirs.example = -1;
-        if (p->dim != DIM) {
-            continue;
+        if (p->dim == DIM && p->query) {
+            ask_how_far(p, s);
         }
-        ask_peer(p, pairs, (int)s->pairs, replies);
-        for (long i = 0; i < s->pairs; i++) {
-            judge(&theirs, p, &pairs[i], &replies[i], i);
+        if (p->dim == DIM && p->penetration) {
+            ask_how_deep(p, s);
         }
-        print_peer_tally(p, s->group, &theirs, pairs, replies);
     }
     for (int k = 0; k < 2; k++) {
         for (long i = 0; i < most; i++) {
@@ -454,26 +559,13 @@ static void one_group(tally *s, const peer_list *peers)
 int main(int argc, char **argv)
 {
     static peer_list peers;
-    const char *needs = getenv("GJK_COMPARE_NEEDS");
     long bad = 0;
-    if (argc < 4 || !freopen(argv[3], "w", stdout)) {
+    if (argc < 4 || !freopen(argv[3], "w", stdout) || (bad = load_peers(&peers, argc - 4, argv + 4)) < 0) {
         fprintf(stderr, "usage: stability PAIRS SEED OUTPUT [NAME=MODULE...]\n");
         return 2;
     }
     pairs_per_family = strtol(argv[1], NULL, 10);
     seed = strtoull(argv[2], NULL, 10);
-    for (int k = 4; k < argc; k++) {
-        char *path = strchr(argv[k], '=');
-        if (!path || missing_count == MOST_PEERS) {
-            return 2;
-        }
-        *path++ = 0;
-        if (!*path || !load_peers(&peers, path)) {
-            missing[missing_count++] = argv[k];
-            fprintf(stderr, "%s: the peer %s is missing\n", VARIANT, argv[k]);
-            bad += needs && strstr(needs, argv[k]);
-        }
-    }
     print_head(&peers);
     exact_start(&exactly);
     for (int group = 0; group < GROUPS; group++) {
