@@ -21,6 +21,7 @@
 #define NORMAL_ERROR 16.0 /* of the separation along the normal: in u * span of all bodies, in u * scale of these */
 #define POINT_ERROR 16.0
 #define TOUCH_ERROR (VALUE_ERROR + NORMAL_ERROR + 4) /* the move is rounded too */
+#define MOST_STEPS 100                               /* of bodies with corners */
 #define UNIT_ERROR 8.0                               /* in u */
 
 /* ---- figures ---- */
@@ -50,7 +51,7 @@ static const char *const law_name[LAWS] = {
     "the value is outside its bracket, or the status another than returned",
     "the value is further off than it may be, in u * scale",
     "the bracket is wider than it may be, in u * scale",
-    "corners are known, and it found no end",
+    "corners are known, and it was not done or not soon, in steps",
     "apart, but not what distance says",
     "the normal is not unit, in u",
     "the normal does not realise lower, in u * span",
@@ -188,7 +189,7 @@ static void check_depth(figures *s, const V(result) * r)
     if (known) {
         hold(s, NEAR, r, error <= VALUE_ERROR, error);
         hold(s, NARROW, r, width <= WIDTH, width);
-        hold(s, ENDS, r, r->status != GJK_LIMIT, r->steps);
+        hold(s, ENDS, r, r->status == GJK_OK && r->steps <= MOST_STEPS, r->steps);
     }
 }
 
@@ -519,7 +520,7 @@ static void workspaces(void **state)
         }
     }
     printf("%-6s workspaces: %ld pairs, %ld overlap, %ld times one was full\n", VARIANT, asked, deep, full);
-    assert_true(deep > 0 && full > 0);
+    assert_true(deep > 0 && full > 0 && full * (DIM == 2 ? 30 : 3) < asked);
 }
 
 /* However few steps, too; and no more than allowed. */
@@ -563,6 +564,9 @@ static void tolerances(void **state)
                 ask_for_truth(&o, &r);
                 enough = (double)o.abs_tol + (double)o.rel_tol * fabs((double)(r.upper < 0 ? r.lower : r.upper));
                 kept += width_of(&r) <= enough * (1 + 8 * U) + LEAST;
+                expect_answer("wider than asked, where rounding does not stand in the way", &r,
+                              r.status == GJK_OK || r.status == GJK_LIMIT || !meets || !is_normal() ||
+                                  enough < 1e4 * U * span());
                 expect_answer("wider than asked, and the status does not say so", &r,
                               !is_normal() || width_of(&r) <= enough * (1 + 8 * U) + LEAST || r.status != GJK_OK ||
                                   in_u((quad)width_of(&r), span()) <= 100);
@@ -897,6 +901,108 @@ static void last_places_of_depths(void **state)
     assert_true((double)l.settled >= LAST_SHARE * (double)l.pairs);
 }
 
+/* Bodies in one plane: they meet, and are 0 deep; with radii, these. And the same lifted off. */
+static void expect_flat(real radius_a, real radius_b, real off)
+{
+    V(options) o = default_options();
+    V(result) r;
+    quad truth_here = (quad)off - (quad)radius_a - (quad)radius_b;
+    drawn.b.pose.p[DIM - 1] = off;
+    bind_pair(&drawn);
+    drawn.a.shape.radius = radius_a;
+    drawn.b.shape.radius = radius_b;
+    nearly.lower = truth_here - quad_abs(truth_here) * (quad)1e-30;
+    nearly.upper = truth_here + quad_abs(truth_here) * (quad)1e-30;
+    nearly.scale = (quad)span_of_pair(&p->a, &p->b);
+    o.tight = 1;
+    ask_for_truth(&o, &r);
+    expect_answer("flat, and the value is off", &r,
+                  (double)quad_abs((quad)r.value - truth_here) <= last_place(r.lower));
+    expect_answer("flat, and the bracket is wide", &r, width_of(&r) <= 2 * last_place(r.lower));
+    expect_answer("flat, and touching is not exact", &r,
+                  radius_a + radius_b > 0 || off > 0 || (r.lower == 0 && r.upper == 0));
+    expect_answer("flat, and the normal is not square to it", &r,
+                  fabs(fabs((double)r.normal[DIM - 1]) - 1) <= UNIT_ERROR * U);
+}
+
+static void flat_pairs(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        draws d = draws_from(seed, 1010, (uint64_t)k);
+        real ra = k % 2 ? (real)between(&d, 0.1, 1) : 0, rb = k % 2 ? (real)between(&d, 0.1, 1) : 0;
+        start_pair(DIM == 3 ? TRIANGLE : SEGMENT, k % 8 < 4 ? SEGMENT : ORIGIN);
+        for (int i = 0; i < 3; i++) { /* b in the middle of a, which goes around the origin */
+            double x[2] = {i == 2 ? 0 : i ? -1 : 1, i == 2 ? 1 : -1};
+            for (int j = 0; j < DIM - 1; j++) {
+                drawn.a.v[i][j] = (real)(x[j] * between(&d, 0.5, 1));
+                drawn.b.v[i][j] = drawn.a.v[i][j] / 4;
+            }
+        }
+        drawn.a.count = drawn.b.count = 0;
+        expect_flat(ra, rb, 0);
+        expect_flat(ra, rb, (real)between(&d, 0.01, 0.1));
+    }
+}
+
+/* A few points each, of another magnitude along each axis, down to the 300th binade: nearly flat in every way. */
+static void draw_uneven(draws *d)
+{
+    int exponent[2][DIM], same = below(d, 2), kind = below(d, 3);
+    start_pair(POINTS, POINTS);
+    for (int s = 0; s < 2; s++) {
+        body *b = s ? &drawn.b : &drawn.a;
+        int lattice = below(d, 3) == 0;
+        for (int i = 0; i < DIM; i++) {
+            int down = (double)REAL_MAX > 1e300 ? 300 : 90;
+            exponent[s][i] = -below(d, kind == 0 ? down : kind == 1 ? down / 3 : 1 + below(d, 2) * down / 4);
+            exponent[s][i] = s && same ? exponent[0][i] : exponent[s][i];
+        }
+        b->count = 2 + below(d, 8);
+        for (int k = 0; k < b->count; k++) {
+            for (int i = 0; i < DIM; i++) {
+                double x = lattice ? (double)(below(d, 9) - 4) / 4 : between(d, -1, 1);
+                b->v[k][i] = (real)ldexp(x, exponent[s][i]);
+            }
+        }
+        if (below(d, 3) == 0) {
+            turn(d, b, 100);
+        }
+    }
+    bind_pair(&drawn);
+}
+
+/* Brackets hold, in any workspace, with any number of steps, to the last place or not. */
+static void uneven(void **state)
+{
+    static const uint32_t corners[] = {8, 9, 10, 12, 20, 64};
+    long deep = 0, settled = 0;
+    (void)state;
+    for (long n = 0; n < 5 * pairs_per_family; n++) {
+        draws d = draws_from(seed + 4, 2001, (uint64_t)n);
+        draw_uneven(&d);
+        at = n;
+        find_truth_of_pair();
+        deep += meets;
+        for (int k = 0; k < 3; k++) {
+            V(options) o = default_options();
+            V(result) r;
+            o.tight = k > 0;
+            o.workspace = room.bytes;
+            o.workspace_bytes = (uint32_t)V(workspace_size)(corners[below(&d, 6)]);
+            o.max_steps = below(&d, 8) ? 0 : 1 + (uint32_t)below(&d, 40);
+            ask(&o, &r);
+            expect_answer("more steps than allowed", &r, r.steps <= (o.max_steps ? (int)o.max_steps : 256));
+            expect_answer("the bracket misses the truth", &r,
+                          !sure || !is_normal() || (double)(missed(&r) / (quad)scale()) <= 1e-40);
+            settled += o.tight && r.upper < 0 && width_of(&r) <= 2 * last_place(r.lower);
+        }
+    }
+    printf("%-6s uneven points: %ld pairs, %ld overlap, settled %ld times\n", VARIANT, 5 * pairs_per_family, deep,
+           settled);
+    assert_true(deep > 0 && settled > 0);
+}
+
 /* ---- paths: b comes, touches, goes in, and comes out again ---- */
 
 #define STEPS 1000
@@ -1171,6 +1277,8 @@ int main(int argc, char **argv)
                                                cmocka_unit_test(stacked),
                                                cmocka_unit_test(round_shapes),
                                                cmocka_unit_test(last_places_of_depths),
+                                               cmocka_unit_test(flat_pairs),
+                                               cmocka_unit_test(uneven),
                                                cmocka_unit_test(paths),
                                                cmocka_unit_test(turned_boxes)};
     struct CMUnitTest tests[FAMILIES + sizeof others / sizeof *others];

@@ -353,6 +353,12 @@ static int distance_status(const result *r, const options *o, enum end end, cons
     return o->abs_tol == 0 && o->rel_tol == 0 && tight_enough(r, d, radius, level) ? GJK_OK : GJK_FLOOR;
 }
 
+/* The bracket is about as narrow as its numbers can be. */
+static int is_to_last_place(const result *r)
+{
+    return r->upper - r->lower <= 8 * UNIT * larger(size(r->lower), size(r->upper)) + 8 * TINY;
+}
+
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
 {
     options o;
@@ -440,6 +446,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     if (end == FAULT) return GJK_BAD_SUPPORT;
     r.value = smaller(larger(r.value, r.lower), r.upper);
     r.status = distance_status(&r, &o, end, &q.d, radius, 1);
+    if (g.tight && r.status == GJK_OK && !narrow(&r, &o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
     *out = r;
     return r.status;
 }

@@ -39,25 +39,18 @@ static real length_above(vec v, vec v_low)
 }
 
 /* Bounds of cores that are apart and known by their corners, to next to no rounding: for shapes whose radii overlap.
- * From above: the one pair of points that the weights single out, in the sets but for weights that add up to more than
- * 1. */
+ * From above: the one pair of points that the weights single out. It is in the sets: the shares of the others add up to
+ * no more than 3/4, as none is above that of the corner they start from. */
 static void bound_apart(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1],
                         real *upper)
 {
     depth d = {.q = q, .a = a, .b = b, .g = g};
     int from = 0;
-    real share = 0, edges = 0;
     for (int k = 1; k < q->s.n; k++) from = weight[k] > weight[from] ? k : from;
     vec x_low, x = exact_blend(&q->s, weight, from, offsetof(vertex, x), q->d.a.grain, &x_low);
     vec y_low, y = exact_blend(&q->s, weight, from, offsetof(vertex, y), q->d.b.grain, &y_low);
     vec high = blend(&q->s, weight, offsetof(vertex, w), 1), low = remainder_of(&q->d, x, x_low, y, y_low, high);
-    for (int k = 0; k < q->s.n; k++) {
-        if (k == from) continue;
-        share += weight[k];
-        edges += spread(sub(corner(&q->s, k)->w, corner(&q->s, from)->w)) + 8 * UNIT;
-    }
-    real off = larger(share - 1 + 4 * UNIT, 0) * edges + 256 * UNIT * UNIT;
-    *upper = smaller(*upper, length_above(high, low) + off);
+    *upper = smaller(*upper, length_above(high, low) + 256 * UNIT * UNIT);
     bound_along(&d, q->normal);
 }
 
@@ -133,6 +126,8 @@ static real hand_over(const depth *d, real weight[DIM + 1])
     vec foot = mul(d->floor->n, d->floor->height), v;
     simplex *s = &q->s;
     clear(s);
+    q->pending = 0;
+    q->borrowed = 0;
     take_tip(s, &d->p.tip[d->floor->v[0]], foot);
     v = point(s, 0);
     for (int i = 0; i < USUAL_TIPS && dot(v, v) > UNIT * UNIT / 4; i++) {

@@ -233,7 +233,7 @@ static enum end first_surface(depth *d)
 
 /* ---- the proof ---- */
 
-/* On which side of the facet's plane the origin is: 1, the inner; 0 where it is in it, or numbers are lost. */
+/* On which side of the facet's plane the origin is: above 0, the inner; below 0, the outer, or numbers are lost. */
 static int inner_side(const depth *d, const facet *f)
 {
     dyadics w[DIM];
@@ -273,7 +273,7 @@ static void count_in(const depth *d, const facet *f, tally *t)
         long_edge = larger(length(e), long_edge);
     }
     real area = length(outward(p, f, &thin)), square = DIM == 2 ? long_edge : long_edge * long_edge;
-    if (area * f->height > 16 * UNIT * square * far) {
+    if (!thin && area * f->height > 16 * UNIT * square * far) {
         t->certain += area * f->height / (DIM == 2 ? far * far : far * far * far) / 4;
         return;
     }

@@ -286,6 +286,15 @@ static int meet_in(seam a, seam b)
     return DIM == 2 ? a.v[0] == b.v[0] && a.v[1] != b.v[1] : a.v[0] == b.v[1] && a.v[1] == b.v[0];
 }
 
+/* The other side of s on the rim; where it is not there, the rim's end. Two corners may have more than one edge between
+ * them: these are told apart by their facets. */
+static int other_side(const polytope *p, seam s)
+{
+    int k = 0;
+    while (k < p->rims && !(p->rim[k].of == s.next && p->rim[k].next == s.of && meet_in(p->rim[k], s))) k++;
+    return k;
+}
+
 /* Takes the facet out, once t is in: its seams are on the rim, behind those that have been looked across; but for those
  * that were there, which it has in common with others that are out. */
 static void take_out(polytope *p, int at, int *looked)
@@ -293,8 +302,7 @@ static void take_out(polytope *p, int at, int *looked)
     p->facet[at].gone = 1;
     for (int i = 0; i < DIM; i++) {
         seam s = seam_of(p, at, i);
-        int k = 0;
-        while (k < p->rims && !meet_in(p->rim[k], s)) k++;
+        int k = other_side(p, s);
         if (k == p->rims) {
             p->rim[p->rims++] = s;
             continue;
@@ -349,15 +357,16 @@ static real put_facet_on(polytope *p, seam r, int t)
 }
 
 /* Marks what t takes the place of: the facet, and around it all that go too. Their rim is what new facets start from:
- * each facet after the first adds one seam to it at most. */
+ * each facet after the first adds one seam to it at most, so that there is room. */
 static void clear_way(polytope *p, int from, const tip *t)
 {
     int looked = 0;
     p->rims = 0;
     take_out(p, from, &looked);
-    while (looked < p->rims) {
+    while (looked < p->rims && p->rims + DIM <= p->most_facets) {
         seam s = p->rim[looked];
-        if (s.next != WALL && goes_too(p, &p->facet[s.next], s, t)) take_out(p, s.next, &looked);
+        if (s.next != WALL && !p->facet[s.next].gone && goes_too(p, &p->facet[s.next], s, t))
+            take_out(p, s.next, &looked);
         else looked++;
     }
 }
@@ -443,11 +452,22 @@ static enum growth grow(polytope *p, facet *f, const tip *t)
     return GROWN;
 }
 
-/* Marks the facets above some height that have no corner in common with one below. */
+static facet *lowest(const polytope *p)
+{
+    facet *f = &p->facet[0];
+    for (int i = 1; i < p->facets; i++)
+        if (p->facet[i].height < f->height || (p->facet[i].height == f->height && p->facet[i].done > f->done))
+            f = &p->facet[i];
+    return f;
+}
+
+/* Marks the facets above some height that have no corner in common with one below, nor with the lowest. */
 static void mark_above(polytope *p, real height)
 {
     seam *near = p->rim; /* there is a seam for each tip */
+    const facet *low = lowest(p);
     for (int i = 0; i < p->tips; i++) near[i].v[0] = 0;
+    for (int i = 0; i < DIM; i++) near[low->v[i]].v[0] = 1;
     for (int k = 0; k < p->facets; k++)
         for (int i = 0; i < DIM && !(p->facet[k].height >= height); i++) near[p->facet[k].v[i]].v[0] = 1;
     for (int k = 0; k < p->facets; k++) {
@@ -478,15 +498,6 @@ static void forget_tips(polytope *p)
     p->tips = kept;
     for (int k = 0; k < p->facets; k++)
         for (int i = 0; i < DIM; i++) p->facet[k].v[i] = place[p->facet[k].v[i]].v[0];
-}
-
-static facet *lowest(const polytope *p)
-{
-    facet *f = &p->facet[0];
-    for (int i = 1; i < p->facets; i++)
-        if (p->facet[i].height < f->height || (p->facet[i].height == f->height && p->facet[i].done > f->done))
-            f = &p->facet[i];
-    return f;
 }
 
 /* The first DIM + 1 tips, as a surface. turn: above 0 where they turn counterclockwise. */

@@ -67,24 +67,35 @@ static int enclose_depth(finish *f, const depth *d, real ends[3])
     return !f->lost && round_off(sum, sum.t.high > 0 ? -1 : 0, ends);
 }
 
-/* The lowest of the facets that may be it, by their planes; f, ends: its own. NULL: one has no plane, or lies beyond
- * the origin. */
+/* Above the height of the plane, in the frame. */
+static real height_above(const finish *f, const depth *d)
+{
+    wide h = core_distance(f);
+    return raised(h.t.high, h.exponent) * d->q->d.scale * (1 + 64 * UNIT) + TINY;
+}
+
+/* The lowest of the facets, by their planes, or the first that has the origin beyond it; f, ends: its own. One that is
+ * proven to be higher by rounded numbers need not be looked at; one without area is a line, which other facets have in
+ * common. NULL: numbers are lost, or one that was dropped may be lower. */
 static facet *lowest_plane(finish *f, const depth *d, real ends[3])
 {
-    facet *low = d->p.facet, *best = NULL;
-    real height = lowest(&d->p)->height + 64 * UNIT + d->q->d.doubt, here[3];
+    facet *best = NULL;
+    real here[3], height = REAL_MAX;
     for (int k = 0; k < d->p.facets; k++) {
-        if (!(low[k].height <= height)) continue;
-        take_plane(f, d, &low[k]);
-        if (f->over.sign < 0 && !f->lost) return &low[k];
-        if (f->under.sign == 0 && !f->lost) continue;
+        facet *at = &d->p.facet[k];
+        if (floor_of(d, at) > height) continue;
+        take_plane(f, d, at);
+        if (f->lost) return NULL;
+        if (f->over.sign < 0) return at;
+        if (f->under.sign == 0) continue;
         if (!enclose_depth(f, d, here)) return NULL;
         if (best && !(here[2] > ends[2])) continue;
         memcpy(ends, here, sizeof here);
-        best = &low[k];
+        height = height_above(f, d);
+        best = at;
     }
     if (best) take_plane(f, d, best);
-    return best;
+    return d->dropped.least > height ? best : NULL;
 }
 
 /* Grows the polytope on, from where rounding sees nothing beyond it: until the lowest plane has no corner beyond it.
@@ -95,7 +106,7 @@ static enum end grow_on(depth *d, finish *f, real ends[3])
     for (;;) {
         tip t;
         facet *low = lowest_plane(f, d, ends);
-        if (!low || !(d->dropped.least > low->height + 64 * UNIT + d->q->d.doubt)) return FAULT;
+        if (!low) return FAULT;
         d->floor = low;
         if (d->q->steps >= d->g->max_steps) return OPEN;
         if (!take_step(f, d, &t)) break;
@@ -133,6 +144,7 @@ static enum end span_out(depth *d, finish *f)
 {
     while (d->p.tips <= DIM) {
         tip t;
+        if (d->q->steps + 2 > d->g->max_steps) return OPEN;
         take_normal(f, d);
         dyadic height = inner(&f->way, &f->w[0]);
         if (!take_step(f, d, &t)) {
@@ -143,7 +155,7 @@ static enum end span_out(depth *d, finish *f)
         d->p.tip[d->p.tips++] = t;
     }
     put_first(&d->p);
-    return OPEN;
+    return CLOSE;
 }
 
 /* Settles the depth, where it can be: then d->ends are the bracket of the separation, radii included, if the origin is
@@ -153,7 +165,7 @@ static APART void settle_depth(depth *d, enum end *end)
     finish f;
     enum end grown = STILL;
     if (d->p.facets == 0) grown = span_out(d, &f);
-    if (grown == OPEN) grown = deepen(d);
+    if (grown == CLOSE) grown = deepen(d);
     if (grown == STILL && d->p.facets > 0) grown = grow_on(d, &f, d->ends);
     d->settled = grown == STILL;
     if (grown != FAULT) *end = grown;
