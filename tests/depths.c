@@ -972,6 +972,21 @@ static void draw_uneven(draws *d)
     bind_pair(&drawn);
 }
 
+/* Two posts, end to end: apart or into each other by a few roundings, where they are thinner than that. */
+static void draw_posts(draws *d)
+{
+    int long_way = below(d, DIM), down = (double)REAL_MAX > 1e300 ? 300 : 110;
+    start_pair(BOX, BOX);
+    for (int i = 0; i < DIM; i++) {
+        double thin = ldexp(between(d, 0.5, 1), -below(d, down));
+        drawn.a.half[i] = i == long_way ? (real)between(d, 0.5, 1) : (real)thin;
+        drawn.b.half[i] = below(d, 2) ? drawn.a.half[i] : (real)ldexp((double)drawn.a.half[i], -below(d, 8));
+    }
+    drawn.a.pose.p[long_way] = -drawn.a.half[long_way];
+    drawn.b.pose.p[long_way] = drawn.b.half[long_way] * (1 + (real)((below(d, 9) - 4) * 2 * U));
+    bind_pair(&drawn);
+}
+
 /* Brackets hold, in any workspace, with any number of steps, to the last place or not. */
 static void uneven(void **state)
 {
@@ -980,7 +995,11 @@ static void uneven(void **state)
     (void)state;
     for (long n = 0; n < 5 * pairs_per_family; n++) {
         draws d = draws_from(seed + 4, 2001, (uint64_t)n);
-        draw_uneven(&d);
+        if (n % 5) {
+            draw_uneven(&d);
+        } else {
+            draw_posts(&d);
+        }
         at = n;
         find_truth_of_pair();
         deep += meets;
@@ -988,6 +1007,7 @@ static void uneven(void **state)
             V(options) o = default_options();
             V(result) r;
             o.tight = k > 0;
+            o.rel_tol = below(&d, 4) ? 0 : 64;
             o.workspace = room.bytes;
             o.workspace_bytes = (uint32_t)V(workspace_size)(corners[below(&d, 6)]);
             o.max_steps = below(&d, 8) ? 0 : 1 + (uint32_t)below(&d, 40);

@@ -263,23 +263,23 @@ static real floor_of(const depth *d, const facet *f)
 static void count_in(const depth *d, const facet *f, tally *t)
 {
     const polytope *p = &d->p;
-    real far = 0, long_edge = 0;
+    real far = 0, long_edge = 0; /* or somewhat above */
     int thin;
     t->facets++;
     if (f->height - 64 * UNIT - d->q->d.doubt < t->least) t->least = smaller(floor_of(d, f), t->least);
     for (int i = 0; i < DIM; i++) {
-        vec e = reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]]);
-        far = larger(length(p->tip[f->v[i]].w), far);
-        long_edge = larger(length(e), long_edge);
+        far = larger(spread(p->tip[f->v[i]].w), far);
+        long_edge = larger(spread(reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]])), long_edge);
     }
-    real area = length(outward(p, f, &thin)), square = DIM == 2 ? long_edge : long_edge * long_edge;
-    if (!thin && area * f->height > 16 * UNIT * square * far) {
-        t->certain += area * f->height / (DIM == 2 ? far * far : far * far * far) / 4;
+    vec n = outward(p, f, &thin);
+    real area = length(n), slop = 16 * UNIT * (DIM == 2 ? long_edge : long_edge * long_edge) + TINY;
+    if (!thin && area * f->height > slop * far) {
+        t->certain += area / far * (f->height / far) / (DIM == 2 ? 4 : 4 * far);
         return;
     }
     int side = d->g->exact ? inner_side(d, f) : -1;
     t->proven += side > 0;
-    if (side < 0) t->doubtful += (area + 16 * UNIT * square) / (DIM == 2 ? f->height : f->height * f->height);
+    if (side < 0) t->doubtful += (spread(n) + slop) / f->height / (DIM == 2 ? 1 : f->height);
 }
 
 /* Whether the surface goes around the origin, if all facets are off it, on their outer side: then how often it does is

@@ -92,12 +92,13 @@ static inline vec reach_over(const tip *from, const tip *to)
 
 static inline real height_of(const tip *t, vec n) { return dot(n, t->w) + dot(n, t->low); }
 
+/* Of none at all: along the first axis. */
 static vec unit_of(vec n, vec otherwise)
 {
-    real l = length(n);
-    if (l > 0) return mul(n, 1 / l);
-    l = length(otherwise);
-    return l > 0 ? mul(otherwise, 1 / l) : axis(0, 1);
+    if (!(peak(n) > 0)) n = otherwise;
+    if (!(peak(n) > 0)) return axis(0, 1);
+    n = unit_size(n);
+    return mul(n, 1 / length(n));
 }
 
 static real least_height(const polytope *p, const facet *f, vec n)
