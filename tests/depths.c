@@ -225,14 +225,20 @@ static quad separation_along(const real *normal)
     return along / norm(n);
 }
 
-static void check_normal(figures *s, const V(result) * r)
+/* How far the normal is from unit length, in u. */
+static double off_unit(const V(result) * r)
 {
-    quad n[DIM], along;
-    double off;
+    quad n[DIM];
     for (int i = 0; i < DIM; i++) {
         n[i] = (quad)r->normal[i];
     }
-    off = in_u(quad_abs(norm(n) - 1), 1);
+    return in_u(quad_abs(norm(n) - 1), 1);
+}
+
+static void check_normal(figures *s, const V(result) * r)
+{
+    quad along;
+    double off = off_unit(r);
     hold(s, IS_UNIT, r, off <= UNIT_ERROR, off);
     if (!(off <= UNIT_ERROR) || !is_normal()) {
         return;
@@ -602,17 +608,13 @@ static void expect_depth(quad truth_here, int corners_known, real radius_a, real
     for (int k = 0; k < 4; k++) {
         V(options) o = default_options();
         V(result) r;
-        quad n[DIM];
         if (corners[k] > 0) {
             o.workspace = room.bytes;
             o.workspace_bytes = (uint32_t)V(workspace_size)(corners[k]);
         }
         assert_true(o.workspace_bytes <= sizeof room);
         ask(&o, &r);
-        for (int i = 0; i < DIM; i++) {
-            n[i] = (quad)r.normal[i];
-        }
-        expect_answer("the normal is not unit", &r, in_u(quad_abs(norm(n) - 1), 1) <= UNIT_ERROR);
+        expect_answer("the normal is not unit", &r, off_unit(&r) <= UNIT_ERROR);
         expect_answer("the bracket misses the closed form", &r, !(missed(&r) > 0));
         if (corners_known && corners[k] != 8) {
             double error = in_u(off_truth(&nearly, (quad)r.value), unit_here);
@@ -948,7 +950,7 @@ static void flat_pairs(void **state)
 /* A few points each, of another magnitude along each axis, down to the 300th binade: nearly flat in every way. */
 static void draw_uneven(draws *d)
 {
-    int exponent[2][DIM], same = below(d, 2), kind = below(d, 3);
+    int exponent[2][DIM], same = below(d, 2), kind = below(d, 3), apart = below(d, 4) == 0;
     start_pair(POINTS, POINTS);
     for (int s = 0; s < 2; s++) {
         body *b = s ? &drawn.b : &drawn.a;
@@ -962,14 +964,16 @@ static void draw_uneven(draws *d)
         for (int k = 0; k < b->count; k++) {
             for (int i = 0; i < DIM; i++) {
                 double x = lattice ? (double)(below(d, 9) - 4) / 4 : between(d, -1, 1);
+                x = !apart || i > 0 ? x : s ? -fabs(x) : fabs(x); /* on either side of the origin, up to it */
                 b->v[k][i] = (real)ldexp(x, exponent[s][i]);
             }
         }
-        if (below(d, 3) == 0) {
+        if (!apart && below(d, 3) == 0) {
             turn(d, b, 100);
         }
     }
     bind_pair(&drawn);
+    drawn.a.shape.radius = apart && below(d, 2) ? (real)0.5 : 0;
 }
 
 /* Two posts, end to end: apart or into each other by a few roundings, where they are thinner than that. */
@@ -1013,6 +1017,7 @@ static void uneven(void **state)
             o.max_steps = below(&d, 8) ? 0 : 1 + (uint32_t)below(&d, 40);
             ask(&o, &r);
             expect_answer("more steps than allowed", &r, r.steps <= (o.max_steps ? (int)o.max_steps : 256));
+            expect_answer("the normal is not unit", &r, off_unit(&r) <= UNIT_ERROR);
             expect_answer("the bracket misses the truth", &r,
                           !sure || !is_normal() || (double)(missed(&r) / (quad)scale()) <= 1e-40);
             settled += o.tight && r.upper < 0 && width_of(&r) <= 2 * last_place(r.lower);
