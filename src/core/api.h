@@ -267,18 +267,18 @@ static real middle(const search *q, const goal *g, real upper)
 }
 
 /* The cores meet, or rounding leaves it open: the depth instead of the distance. */
-static APART enum end plumb(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
+static APART enum end plumb(search *q, const shape *a, const shape *b, const options *o, const goal *g, real *upper,
                             real weight[], result *r)
 {
     usual_room own;
     goal here = scaled(g, q->d.scale);
     depth d = {.q = q, .a = a, .b = b, .g = &here, .dropped.least = REAL_MAX};
     d.p = o->workspace ? polytope_in(o->workspace, tips_in(o->workspace_bytes)) : polytope_in(&own, USUAL_TIPS);
-    if (q->met) upper = smaller(upper, 0);
-    enum end end = fathom(&d, &upper, weight);
-    if (end == FAULT || !(q->lower <= upper)) return FAULT;
-    bracket(r, &q->d, q->lower, upper, a, b);
-    r->value = middle(q, g, upper);
+    if (q->met) *upper = smaller(*upper, 0);
+    enum end end = fathom(&d, upper, weight);
+    if (end == FAULT || !(q->lower <= *upper)) return FAULT;
+    bracket(r, &q->d, q->lower, *upper, a, b);
+    r->value = middle(q, g, *upper);
     if (d.settled) {
         r->lower = d.ends[0];
         r->value = d.ends[1];
@@ -286,8 +286,26 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     }
     store(r->normal, q->normal);
     witness(r, q, weight, a, b, 2);
-    enum end further = g->exact || end == OPEN ? FAULT : take_further(q, a, b, o, g, upper, weight, r);
+    enum end further = g->exact || end == OPEN ? FAULT : take_further(q, a, b, o, g, *upper, weight, r);
     return further == FAULT ? end : further;
+}
+
+/* The same of known corners; where rounding does not tell whether they meet, that is found out without it, from the
+ * lowest facet, and if they do not the answer is the distance. */
+static enum end plumb_and_tell(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
+                               real weight[], result *r)
+{
+    enum end end = plumb(q, a, b, o, g, &upper, weight, r);
+    if (end == FAULT || !EXACT || upper <= 0) return end;
+    result apart = *r;
+    if (tighten(q, a, b, g, &apart, weight) != STILL) return end;
+    if (!q->met) {
+        *r = apart;
+        return STILL;
+    }
+    r->value = middle(q, g, 0);
+    r->upper = apart.upper;
+    return end;
 }
 
 /* The cores are apart, and known by their corners: the normal, and where the radii overlap the bracket, to more digits.
@@ -310,6 +328,19 @@ static int may_meet(const search *q, const goal *g, enum end further)
     return !(q->lower > 0) && !(g->exact && further == STILL && !q->met);
 }
 
+/* How deep: what follows the cores' search, which ended like that. */
+static enum end go_deep(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
+                        real weight[], result *r, enum end end)
+{
+    int still = end == STILL || end == INSIDE, open = !(q->lower > 0);
+    enum end further = FAULT;
+    if (still && open && g->exact && !g->tight) return plumb_and_tell(q, a, b, o, g, upper, weight, r);
+    if (still && (g->exact || !open)) further = take_further(q, a, b, o, g, upper, weight, r);
+    if (may_meet(q, g, further)) return plumb(q, a, b, o, g, &upper, weight, r);
+    if (g->exact && further == FAULT) point_out_apart(q, a, b, g, upper, weight, r);
+    return further == FAULT ? end : further;
+}
+
 /* What the questions share: the cores' search, its bracket with the radii taken off, and what a finish adds. FAULT: a
  * support's answer was none, or the bounds cross. */
 static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
@@ -322,19 +353,14 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     int probed = still && !g->deep && (g->sign_only || !g->exact);
     if (end == FAULT || (probed && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     answer(q, a, b, g, upper, weight, r);
-    if (still && (!g->deep || g->exact || q->lower > 0)) further = take_further(q, a, b, o, g, upper, weight, r);
-    if (further != FAULT) end = further;
-    if (g->deep && may_meet(q, g, further)) {
-        end = plumb(q, a, b, o, g, upper, weight, r);
-        if (end == FAULT) return FAULT;
-    } else if (g->deep && g->exact && further == FAULT) {
-        point_out_apart(q, a, b, g, upper, weight, r);
-    }
+    if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
+    else if (still) further = take_further(q, a, b, o, g, upper, weight, r);
+    if (end == FAULT) return FAULT;
     if (o->cache) remember(o->cache, q, a, b);
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
-    return end;
+    return further == FAULT ? end : further;
 }
 
 /* The radius in it, the bracket may be this wide and still be as tight as rounding allows. */

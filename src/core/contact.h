@@ -80,6 +80,11 @@ static int is_level(const depth *d, const tip *t)
 static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
 {
     vec best = axis(0, 0), up = k->posed ? pull(k->m, n) : n, out = k->posed ? pull(k->m, aside) : aside;
+    if (is_box(s)) { /* axis by axis */
+        best = mul(box_corner(s, up), k->grain);
+        EACH(up.c[i] = size(up.c[i] * best.c[i]) > 8 * UNIT ? up.c[i] : out.c[i]);
+        return box_corner(s, up);
+    }
     real top = -REAL_MAX, most = -REAL_MAX;
     size_t count = count_corners(s);
     for (size_t i = 0; i < count; i++) top = larger(dot(mul(nth_corner(s, i), k->grain), up), top);
@@ -101,7 +106,7 @@ static tip level_tip(const depth *d, vec v)
         c.x = corner_aside(&d->q->d.a, d->a, d->floor->n, mul(v, -1));
         c.y = corner_aside(&d->q->d.b, d->b, mul(d->floor->n, -1), v);
         c.w = corner_of(&d->q->d, c.x, c.y);
-        return tip_of(d->q, &c, 1);
+        return tip_of(d->q, &c, 0);
     }
     for (int k = 0; k < d->p.tips; k++)
         if (is_level(d, &d->p.tip[k]) && dot(v, d->p.tip[k].w) < dot(v, best.w)) best = d->p.tip[k];

@@ -12,11 +12,11 @@
 #define LIMBS (REAL_IS_DOUBLE ? 160 : 80)
 
 typedef struct dyadic {
-    int sign; /* -1, 0, 1 */
-    int lost; /* whether this is not the number at all */
-    int low;  /* limb[0] counts units of 2^(32 low) */
-    int n;    /* limbs, the lowest first; neither the first nor the last of them is 0 */
-    uint32_t limb[LIMBS];
+    int sign;                 /* -1, 0, 1 */
+    int lost;                 /* whether this is not the number at all */
+    int low;                  /* limb[0] counts units of 2^(32 low) */
+    int n;                    /* limbs, the lowest first; neither the first nor the last of them is 0 */
+    uint32_t limb[LIMBS + 2]; /* the last two while it is worked out */
 } dyadic;
 
 static dyadic nought(int lost)
@@ -34,22 +34,16 @@ static dyadic opposite_of(const dyadic *a)
     return r;
 }
 
-/* The number with n limbs from low on, zeros at its ends allowed. */
-static dyadic with_limbs(int sign, int low, int n, const uint32_t *limb)
+/* Takes the zeros off its ends. */
+static void strip(dyadic *r)
 {
-    while (n > 0 && limb[n - 1] == 0) n--;
-    while (n > 0 && *limb == 0) {
-        limb++;
-        low++;
-        n--;
-    }
-    dyadic r = nought(n > LIMBS);
-    if (n == 0 || r.lost) return r;
-    r.sign = sign;
-    r.low = low;
-    r.n = n;
-    for (int i = 0; i < n; i++) r.limb[i] = limb[i];
-    return r;
+    int zeros = 0;
+    while (r->n > 0 && r->limb[r->n - 1] == 0) r->n--;
+    while (zeros < r->n && r->limb[zeros] == 0) zeros++;
+    r->n -= zeros;
+    r->low += zeros;
+    for (int i = 0; i < r->n && zeros > 0; i++) r->limb[i] = r->limb[i + zeros];
+    if (r->n == 0 || r->n > LIMBS) *r = nought(r->n > 0);
 }
 
 static dyadic dyadic_of(real x)
@@ -61,55 +55,75 @@ static dyadic dyadic_of(real x)
     if (exponent > 0) digits |= (bits)1 << MANTISSA;
     int at = (exponent > 0 ? exponent : 1) - (int)(EXPONENT_MAX >> 1) - MANTISSA + 2048; /* not negative */
     uint64_t above = digits >> (32 - at % 32);
-    const uint32_t limb[3] = {(uint32_t)(digits << at % 32 & 0xffffffffu), (uint32_t)(above & 0xffffffffu),
-                              (uint32_t)(above >> 32)};
-    return with_limbs(x < 0 ? -1 : 1, at / 32 - 64, 3, limb);
+    dyadic r = nought(0);
+    r.sign = x < 0 ? -1 : 1;
+    r.low = at / 32 - 64;
+    r.n = 3;
+    r.limb[0] = (uint32_t)(digits << at % 32 & 0xffffffffu);
+    r.limb[1] = (uint32_t)(above & 0xffffffffu);
+    r.limb[2] = (uint32_t)(above >> 32);
+    strip(&r);
+    return r;
 }
 
 /* Limb i, counted like low. */
-static inline int64_t digit(const dyadic *a, int i)
+static inline uint32_t digit(const dyadic *a, int i)
 {
-    return i < a->low || i >= a->low + a->n ? 0 : (int64_t)a->limb[i - a->low] * a->sign;
+    return i < a->low || i >= a->low + a->n ? 0 : a->limb[i - a->low];
 }
 
 /* a + b, or a - b with sign -1. */
 static dyadic plus(const dyadic *a, const dyadic *b, int sign)
 {
-    uint32_t limb[LIMBS + 2];
     if (a->lost || b->lost) return nought(1);
     if (b->sign == 0) return *a;
     if (a->sign == 0) return sign < 0 ? opposite_of(b) : *b;
-    int low = a->low < b->low ? a->low : b->low;
-    int end = a->low + a->n > b->low + b->n ? a->low + a->n : b->low + b->n, n = end - low + 1, turn = 1;
-    if (n > LIMBS + 2) return nought(1);
-    for (;;) {
-        int64_t carry = 0;
-        for (int i = 0; i < n; i++) {
-            int64_t sum = turn * (digit(a, low + i) + sign * digit(b, low + i)) + carry;
-            limb[i] = (uint32_t)((uint64_t)sum & 0xffffffffu);
-            carry = (sum - (int64_t)limb[i]) / ((int64_t)1 << 32);
-        }
-        if (carry == 0) break;
-        turn = -1; /* it was negative */
+    dyadic r = nought(0);
+    int end = a->low + a->n > b->low + b->n ? a->low + a->n : b->low + b->n;
+    r.low = a->low < b->low ? a->low : b->low;
+    r.n = end - r.low + 1;
+    r.sign = a->sign;
+    if (r.n > LIMBS + 2) return nought(1);
+    uint32_t flip = a->sign == sign * b->sign ? 0 : 0xffffffffu; /* a + ~b + 1 is the difference */
+    uint64_t carry = flip & 1;
+    for (int i = 0; i < r.n; i++) {
+        carry += (uint64_t)digit(a, r.low + i) + (digit(b, r.low + i) ^ flip);
+        r.limb[i] = (uint32_t)(carry & 0xffffffffu);
+        carry >>= 32;
     }
-    return with_limbs(turn, low, n, limb);
+    if (flip && !carry) { /* the other way around */
+        r.sign = -r.sign;
+        carry = 1;
+        for (int i = 0; i < r.n; i++) {
+            carry += r.limb[i] ^ flip;
+            r.limb[i] = (uint32_t)(carry & 0xffffffffu);
+            carry >>= 32;
+        }
+    }
+    strip(&r);
+    return r;
 }
 
 static dyadic times(const dyadic *a, const dyadic *b)
 {
-    uint32_t limb[2 * LIMBS];
     if (a->lost || b->lost || a->sign == 0 || b->sign == 0) return nought(a->lost || b->lost);
-    for (int i = 0; i < a->n + b->n; i++) limb[i] = 0;
+    dyadic r = nought(0);
+    r.sign = a->sign * b->sign;
+    r.low = a->low + b->low;
+    r.n = a->n + b->n;
+    if (r.n > LIMBS + 2) return nought(1);
+    for (int i = 0; i < r.n; i++) r.limb[i] = 0;
     for (int i = 0; i < a->n; i++) {
         uint64_t carry = 0;
         for (int j = 0; j < b->n; j++) {
-            carry += (uint64_t)a->limb[i] * b->limb[j] + limb[i + j];
-            limb[i + j] = (uint32_t)(carry & 0xffffffffu);
+            carry += (uint64_t)a->limb[i] * b->limb[j] + r.limb[i + j];
+            r.limb[i + j] = (uint32_t)(carry & 0xffffffffu);
             carry >>= 32;
         }
-        limb[i + b->n] = (uint32_t)carry;
+        r.limb[i + b->n] = (uint32_t)carry;
     }
-    return with_limbs(a->sign * b->sign, a->low + b->low, a->n + b->n, limb);
+    strip(&r);
+    return r;
 }
 
 /* The number's size, to a relative UNIT^2 or so, as a twin times 2^*exponent; the twin is in [1/2, 1), or 0. */

@@ -83,22 +83,34 @@ static inline vec corner_of(const difference *d, vec x, vec y)
     return sub(place(&d->a, x), add(place(&d->b, y), d->c));
 }
 
-/* What corner_of(x, y) is, to twice the digits, minus w. x and y are times their grain, with what rounding took. */
+/* Adds sign times the body's point x, to twice the digits; x is times its grain, with what rounding took. */
+static inline void gather_point(twin sum[DIM], const body *k, real sign, vec x, vec low)
+{
+    for (int i = 0; i < DIM; i++) {
+        if (!k->posed) {
+            gather(&sum[i], (twin){sign * x.c[i], sign * low.c[i]});
+            continue;
+        }
+        for (int j = 0; j < DIM; j++) {
+            real m = sign * k->m[DIM * i + j];
+            gather(&sum[i], product_of(m, x.c[j]));
+            sum[i].low += m * low.c[j];
+        }
+    }
+}
+
+/* What corner_of(x, y) is, to twice the digits, minus w. */
 static vec remainder_of(const difference *d, vec x, vec x_low, vec y, vec y_low, vec w)
 {
+    twin sum[DIM];
     vec r;
     for (int i = 0; i < DIM; i++) {
-        twin sum = {-w.c[i], -d->c_low.c[i]};
-        gather(&sum, (twin){-d->c.c[i], 0});
-        for (int j = 0; j < DIM; j++) {
-            real a = d->a.posed ? d->a.m[DIM * i + j] : (real)(i == j);
-            real b = d->b.posed ? -d->b.m[DIM * i + j] : -(real)(i == j);
-            gather(&sum, product_of(a, x.c[j]));
-            gather(&sum, product_of(b, y.c[j]));
-            sum.low += a * x_low.c[j] + b * y_low.c[j];
-        }
-        r.c[i] = sum.high + sum.low;
+        sum[i] = (twin){-w.c[i], -d->c_low.c[i]};
+        gather(&sum[i], (twin){-d->c.c[i], 0});
     }
+    gather_point(sum, &d->a, 1, x, x_low);
+    gather_point(sum, &d->b, -1, y, y_low);
+    for (int i = 0; i < DIM; i++) r.c[i] = sum[i].high + sum[i].low;
     return r;
 }
 

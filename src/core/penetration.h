@@ -25,6 +25,8 @@ typedef struct depth {
     polytope p;
     const facet *floor; /* the lowest facet, at the end */
     tally dropped;      /* of facets that the surface has but the polytope no longer */
+    vec along;          /* the direction asked last to all digits, */
+    real below;         /*   and the bound from below that it gave */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
     real ends[3];       /* the bracket of the separation then, radii included, and the value */
     vec normal;         /* that goes with it */
@@ -61,6 +63,17 @@ static void turned(const body *k, vec n, twin g[DIM])
     }
 }
 
+/* How high the corner c stands along g. */
+static twin height_along(const twin g[DIM], vec c)
+{
+    twin h = {0, 0};
+    for (int j = 0; j < DIM; j++) {
+        gather(&h, product_of(g[j].high, c.c[j]));
+        h.low += g[j].low * c.c[j];
+    }
+    return sum_of(h.high, h.low);
+}
+
 /* Of the body's corners the one farthest along n, and its height from the body's own origin. Rounded heights tell which
  * it can be. */
 static twin farthest_corner(const body *k, const shape *s, vec n, vec *x)
@@ -68,9 +81,13 @@ static twin farthest_corner(const body *k, const shape *s, vec n, vec *x)
     twin g[DIM], most = {-REAL_MAX, 0};
     vec rough;
     real top = -REAL_MAX, far = 0;
-    size_t count = count_corners(s);
     turned(k, n, g);
     for (int j = 0; j < DIM; j++) rough.c[j] = g[j].high + g[j].low;
+    if (is_box(s)) {
+        *x = box_corner(s, rough);
+        return height_along(g, mul(*x, k->grain));
+    }
+    size_t count = count_corners(s);
     for (size_t i = 0; i < count; i++) {
         vec c = mul(nth_corner(s, i), k->grain);
         top = larger(dot(c, rough), top);
@@ -80,12 +97,7 @@ static twin farthest_corner(const body *k, const shape *s, vec n, vec *x)
     for (size_t i = 0; i < count; i++) {
         vec c = mul(nth_corner(s, i), k->grain);
         if (dot(c, rough) < top) continue;
-        twin h = {0, 0};
-        for (int j = 0; j < DIM; j++) {
-            gather(&h, product_of(g[j].high, c.c[j]));
-            h.low += g[j].low * c.c[j];
-        }
-        h = sum_of(h.high, h.low);
+        twin h = height_along(g, c);
         if (!(h.high > most.high || (h.high == most.high && h.low > most.low))) continue;
         most = h;
         *x = nth_corner(s, i);
@@ -101,19 +113,16 @@ static real excess(vec n)
     return (square.high + square.low) / 2;
 }
 
-/* The height of A - B along n, and the corner there. */
-static twin fine_height(const depth *d, vec n, tip *t)
+/* The height of A - B along n, and the corner there: its x and y. */
+static twin fine_height(const depth *d, vec n, vertex *c)
 {
     const difference *f = &d->q->d;
-    vertex c;
-    twin h = farthest_corner(&f->a, d->a, n, &c.x);
-    gather(&h, farthest_corner(&f->b, d->b, mul(n, -1), &c.y));
+    twin h = farthest_corner(&f->a, d->a, n, &c->x);
+    gather(&h, farthest_corner(&f->b, d->b, mul(n, -1), &c->y));
     for (int i = 0; i < DIM; i++) {
         gather(&h, product_of(-n.c[i], f->c.c[i]));
         h.low -= n.c[i] * f->c_low.c[i];
     }
-    c.w = corner_of(f, c.x, c.y);
-    *t = tip_of(d->q, &c, 1);
     return sum_of(h.high, h.low - h.high * excess(n));
 }
 
@@ -131,12 +140,19 @@ static twin fine_floor(const polytope *p, const facet *f)
     return sum_of(least.high, least.low - least.high * excess(f->n));
 }
 
-/* From below, along a unit n, without the rounding of corners. */
+/* The bound from below along a unit n, without the rounding of corners, and the corner there. */
+static real fine_bound(depth *d, vec n, vertex *c)
+{
+    twin h = fine_height(d, n, c);
+    d->along = n;
+    d->below = -h.high - 2 * UNIT * size(h.high) - h.low - 256 * UNIT * UNIT;
+    return d->below;
+}
+
 static void bound_along(depth *d, vec n)
 {
-    tip t;
-    twin h = fine_height(d, n, &t);
-    real lower = -h.high - 2 * UNIT * size(h.high) - h.low - 256 * UNIT * UNIT;
+    vertex c;
+    real lower = same(n, d->along) ? d->below : fine_bound(d, n, &c);
     if (!(lower > d->q->lower)) return;
     d->q->lower = lower;
     d->q->normal = n;
@@ -182,6 +198,9 @@ static real rise_over_tips(const polytope *p, vec n, const tip *t)
     return larger(least, 0);
 }
 
+/* The ways off the tips, up and down each axis; a zero vector where that axis is not one. */
+static vec way_off(const polytope *p, int i) { return mul(off_tips(p, i / 2), i & 1 ? (real)-1 : (real)1); }
+
 /* Adds the corner farthest off the tips so far; the first that is far enough will do. STILL: there is none beyond
  * rounding, the difference is flat. */
 static enum end spread_out(depth *d)
@@ -191,19 +210,22 @@ static enum end spread_out(depth *d)
     real most = 0;
     for (int i = 0; i < 2 * DIM && !(most > (real)0.125); i++) {
         tip t;
-        vec n = mul(off_tips(p, i / 2), i & 1 ? (real)-1 : (real)1);
-        if (!(length(n) > 0)) continue;
+        vec n = way_off(p, i);
+        if (!(peak(n) > 0)) continue;
         if (d->q->steps >= d->g->max_steps) return OPEN;
         if (!ask_along(d, n, &t)) return FAULT;
-        if (d->g->exact) bound_along(d, n);
         real off = rise_over_tips(p, n, &t);
         if (!(off > most)) continue;
         most = off;
         best = t;
     }
-    if (!(most > 0)) return STILL;
-    p->tip[p->tips++] = best;
-    return OPEN;
+    if (most > 0) {
+        p->tip[p->tips++] = best;
+        return OPEN;
+    }
+    for (int i = 0; i < 2 * DIM && d->g->exact; i++)
+        if (peak(way_off(p, i)) > 0) bound_along(d, way_off(p, i));
+    return STILL;
 }
 
 /* The simplex that the search left, without the corners that hardly stand off the others. */
@@ -258,22 +280,27 @@ static real floor_of(const depth *d, const facet *f)
     return h.high - 2 * UNIT * size(h.high) + h.low - 256 * UNIT * UNIT;
 }
 
-/* Counts the facet: how low it is, and the solid angle under which the origin sees it. A facet whose side is certain
- * counts for more than 0; one too narrow to tell counts for little, either way. */
-static void count_in(const depth *d, const facet *f, tally *t)
+/* How low the facets are. */
+static void count_height(const depth *d, const facet *f, tally *t)
+{
+    t->facets++;
+    if (f->height - 64 * UNIT - d->q->d.doubt < t->least) t->least = smaller(floor_of(d, f), t->least);
+}
+
+/* Counts the solid angle under which the origin sees the facet. One whose side is certain counts for more than 0; one
+ * too narrow to tell counts for little, either way. */
+static void count_angle(const depth *d, const facet *f, tally *t)
 {
     const polytope *p = &d->p;
     real far = 0, long_edge = 0; /* or somewhat above */
-    int thin;
-    t->facets++;
-    if (f->height - 64 * UNIT - d->q->d.doubt < t->least) t->least = smaller(floor_of(d, f), t->least);
+    enum form form;
     for (int i = 0; i < DIM; i++) {
         far = larger(spread(p->tip[f->v[i]].w), far);
         long_edge = larger(spread(reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]])), long_edge);
     }
-    vec n = outward(p, f, &thin);
+    vec n = outward(p, f, &form);
     real area = length(n), slop = 16 * UNIT * (DIM == 2 ? long_edge : long_edge * long_edge) + TINY;
-    if (!thin && area * f->height > slop * far) {
+    if (form != THIN && area * f->height > slop * far) {
         t->certain += area / far * (f->height / far) / (DIM == 2 ? 4 : 4 * far);
         return;
     }
@@ -286,13 +313,29 @@ static void count_in(const depth *d, const facet *f, tally *t)
  * the sum of the solid angles under which the origin sees them, and whole. */
 static int surrounds(const tally *t) { return t->certain > 2 * t->doubtful || (t->proven > 0 && t->doubtful == 0); }
 
+/* The same of the polytope and what was dropped. At first the angles of facets that are clear to see count as no more
+ * than above 0, which is all that is needed if none is in doubt. */
+static int goes_around(const depth *d)
+{
+    for (int measured = 0; measured < 2; measured++) {
+        tally all = d->dropped;
+        for (int k = 0; k < d->p.facets; k++) {
+            const facet *f = &d->p.facet[k];
+            if (!measured && f->form == WIDE && f->height > CLEAR) all.proven++;
+            else count_angle(d, f, &all);
+        }
+        if (surrounds(&all)) return 1;
+    }
+    return 0;
+}
+
 /* Bounds of what is known of the separation of the cores, to rounding; with known corners to next to none. Whether the
- * surface is proven to go around the origin. */
+ * surface is proven to go around the origin, where that is of account. */
 static int bound(depth *d, real *upper)
 {
     tally all = d->dropped;
-    for (int k = 0; k < d->p.facets; k++) count_in(d, &d->p.facet[k], &all);
-    int proven = all.facets > 0 && (d->settled || all.least > 0) && surrounds(&all);
+    for (int k = 0; k < d->p.facets; k++) count_height(d, &d->p.facet[k], &all);
+    int proven = all.facets > 0 && (d->settled || all.least > 0) && goes_around(d);
     if (proven && all.least > 0) *upper = smaller(*upper, -all.least);
     if (d->g->exact) bound_along(d, d->floor ? d->floor->n : d->q->normal);
     return proven;
@@ -312,8 +355,23 @@ static int close_enough(const depth *d, const facet *f, real lower)
     return upper - lower <= asked;
 }
 
-/* Whether anything lies beyond the facet: its corner is taken in, or the facet is done. CLOSE: what lies there is of no
- * account; the bound from below is the facet's own then. OPEN: there is no room. */
+/* Whether anything lies beyond the facet along its n: t, the corner there by rounded heights or, of known corners, by
+ * true ones. */
+static int is_beyond(depth *d, const facet *f, tip *t)
+{
+    vertex c;
+    if (!is_tip_of(&d->p, f, t) && sees(&d->p, f, t)) return 1;
+    if (!d->g->exact) return 0;
+    fine_bound(d, f->n, &c);
+    c.w = corner_of(&d->q->d, c.x, c.y);
+    *t = tip_of(d->q, &c, 0);
+    if (is_tip_of(&d->p, f, t)) return 0;
+    *t = tip_of(d->q, &c, 1);
+    return sees(&d->p, f, t);
+}
+
+/* Takes in the corner beyond the facet, or the facet is done. CLOSE: what lies there is of no account; the bound from
+ * below is the facet's own then. OPEN: there is no room. */
 static enum end look_beyond(depth *d, facet *f)
 {
     tip t;
@@ -327,8 +385,7 @@ static enum end look_beyond(depth *d, facet *f)
         q->lower = best;
         q->normal = normal;
     }
-    if (d->g->exact && !sees(&d->p, f, &t)) fine_height(d, f->n, &t);
-    enum growth grown = sees(&d->p, f, &t) ? grow(&d->p, f, &t) : LOWERED;
+    enum growth grown = is_beyond(d, f, &t) ? grow(&d->p, f, &t) : LOWERED;
     if (grown == LOWERED) f->done = 1;
     return grown == FULL ? OPEN : STILL;
 }
@@ -338,7 +395,10 @@ static void make_room(depth *d)
 {
     mark_above(&d->p, -d->q->lower);
     for (int k = 0; k < d->p.facets; k++)
-        if (d->p.facet[k].gone) count_in(d, &d->p.facet[k], &d->dropped);
+        if (d->p.facet[k].gone) {
+            count_height(d, &d->p.facet[k], &d->dropped);
+            count_angle(d, &d->p.facet[k], &d->dropped);
+        }
     sweep(&d->p);
     forget_tips(&d->p);
 }

@@ -28,8 +28,15 @@ typedef struct facet {
     int16_t next[DIM]; /* the facets across its seams; WALL: one that was dropped */
     signed char done;  /* nothing lies beyond it */
     signed char gone;  /* it makes room for the corner that is being taken in */
-    signed char thin;  /* it has no area to speak of, and its normal is noise */
+    signed char form;
 } facet;
+
+/* THIN: it has no area to speak of, and its normal is noise. WIDE: it is so large that its normal, by what its corners
+ * and its edges have been rounded, is off by less than an eighth of CLEAR. */
+enum form { THIN, LEAN, WIDE };
+
+/* What is so far from a wide facet's plane is on that side of it, whichever corner is asked. */
+#define CLEAR ((real)0x1p14 * UNIT)
 
 #define WALL (-1)
 #define ALONE (-2) /* until the other side is found */
@@ -84,6 +91,13 @@ static polytope polytope_in(void *workspace, size_t tips)
     return p;
 }
 
+static int is_tip_of(const polytope *p, const facet *f, const tip *t)
+{
+    int r = 0;
+    for (int i = 0; i < DIM; i++) r |= same(p->tip[f->v[i]].x, t->x) & same(p->tip[f->v[i]].y, t->y);
+    return r;
+}
+
 /* From one tip to another, to all digits that are known. */
 static inline vec reach_over(const tip *from, const tip *to)
 {
@@ -119,12 +133,19 @@ static void fine_reach(const tip *from, const tip *to, twin r[DIM])
     }
 }
 
+/* The square of how tall a facet must be, to be wide for the noise of its corners. */
+static real tall_enough(const polytope *p)
+{
+    real tall = p->noise * ((real)0x1p-12 / UNIT);
+    return tall * tall;
+}
+
 #if DIM == 2
 /* Square to the edge, to the right of it. */
-static vec outward(const polytope *p, const facet *f, int *thin)
+static vec outward(const polytope *p, const facet *f, enum form *form)
 {
     vec e = reach_over(&p->tip[f->v[0]], &p->tip[f->v[1]]);
-    *thin = 0;
+    *form = dot(e, e) > tall_enough(p) ? WIDE : LEAN;
     return (vec){{e.c[1], -e.c[0]}};
 }
 
@@ -162,21 +183,29 @@ static real fine_outward(const polytope *p, const facet *f, int k, twin n[3])
 }
 
 /* From the two shorter edges, which meet in corner k. */
-static vec outward(const polytope *p, const facet *f, int *thin)
+static vec outward(const polytope *p, const facet *f, enum form *form)
 {
     vec e[3];
+    real square[3];
     int k = 0;
-    for (int i = 0; i < 3; i++) e[i] = reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % 3]]);
-    for (int i = 1; i < 3; i++) k = dot(e[i], e[i]) > dot(e[k], e[k]) ? i : k;
+    for (int i = 0; i < 3; i++) {
+        e[i] = reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % 3]]);
+        square[i] = dot(e[i], e[i]);
+        k = square[i] > square[k] ? i : k;
+    }
+    real longest = square[k];
     k = (k + 2) % 3;
     vec a = e[k], b = mul(e[(k + 2) % 3], -1), n = cross(a, b);
-    real size = dot(a, a) * dot(b, b);
-    if (!(dot(n, n) > (real)0.25 * size)) { /* a narrow one, which rounded edges leave to noise */
+    real nn = dot(n, n), size = dot(a, a) * dot(b, b);
+    *form = WIDE;
+    if (4096 * nn > longest * longest && nn > tall_enough(p) * longest) return n;
+    if (!(nn > (real)0.25 * size)) { /* a narrow one, which rounded edges leave to noise */
         twin fine[3];
         fine_outward(p, f, k, fine);
         for (int i = 0; i < 3; i++) n.c[i] = fine[i].high;
     }
-    *thin = !(dot(n, n) > 64 * UNIT * UNIT * UNIT * size) || !(length(n) > p->noise * length(e[(k + 1) % 3]));
+    int thin = !(dot(n, n) > 64 * UNIT * UNIT * UNIT * size) || !(length(n) > p->noise * root(longest));
+    *form = thin ? THIN : LEAN;
     return n;
 }
 
@@ -212,12 +241,12 @@ static real put_facet(polytope *p, const int16_t v[DIM])
         f->next[i] = ALONE;
     }
     f->done = f->gone = 0;
-    int thin;
-    f->n = unit_of(outward(p, f, &thin), p->tip[v[0]].w);
-    f->thin = (signed char)thin;
+    enum form form;
+    f->n = unit_of(outward(p, f, &form), p->tip[v[0]].w);
+    f->form = (signed char)form;
     f->height = least_height(p, f, f->n);
 #if DIM == 3
-    if (thin) straighten(p, f);
+    if (form == THIN) straighten(p, f);
 #endif
     return f->height;
 }
@@ -247,7 +276,9 @@ static int nearest_corner(const polytope *p, const facet *f, const tip *t)
  * where the normal's own roundings count least; a thin facet has no plane, it is below t where all its corners are. */
 static real rise_over(const polytope *p, const facet *f, const tip *t)
 {
-    if (!f->thin) return rise(p, f->v[nearest_corner(p, f, t)], t, f->n);
+    real above = height_of(t, f->n) - f->height;
+    if (f->form == WIDE && size(above) > CLEAR) return above;
+    if (f->form != THIN) return rise(p, f->v[nearest_corner(p, f, t)], t, f->n);
     real most = -REAL_MAX, least = REAL_MAX;
     for (int i = 0; i < DIM; i++) {
         real here = rise(p, f->v[i], t, f->n);
@@ -333,7 +364,7 @@ static int is_on_side(const polytope *p, const facet *f, seam s, const tip *t)
 static real side_of(const polytope *p, const facet *f, const tip *t)
 {
     real r = rise_over(p, f, t);
-    if (!p->fine) return r;
+    if (!p->fine || size(r) > CLEAR) return r;
     vec e = reach_over(&p->tip[f->v[nearest_corner(p, f, t)]], t);
     if (!(size(r) > 16 * UNIT * spread(e))) r = fine_side(p, f, t);
     return r == 0 && p->side ? (real)p->side(p->of, f, t) : r;
@@ -372,17 +403,19 @@ static void clear_way(polytope *p, int from, const tip *t)
     }
 }
 
-/* The facet across seam i is to know this one by its place; so far it knows it, or one that is gone, by another. */
-static void tell_next(polytope *p, int at, int i, int before)
+/* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
+static int seam_to(const polytope *p, int at, seam s)
+{
+    int k = 0;
+    while (k < DIM - 1 && p->facet[at].v[k] != s.v[DIM - 2]) k++;
+    return k;
+}
+
+/* The facet across seam i is to know this one by its place. */
+static void tell_next(polytope *p, int at, int i)
 {
     seam s = seam_of(p, at, i);
-    if (s.next == WALL) return;
-    for (int k = 0; k < DIM; k++) {
-        seam back = seam_of(p, s.next, k);
-        if (back.next != before || !meet_in(back, s)) continue;
-        p->facet[s.next].next[k] = (int16_t)at;
-        return;
-    }
+    if (s.next != WALL) p->facet[s.next].next[seam_to(p, s.next, s)] = (int16_t)at;
 }
 
 /* A facet that was put on the rim takes the place there of the one that is gone. */
@@ -390,30 +423,29 @@ static void tie_to_rim(polytope *p, int at, seam r)
 {
     int i = DIM == 2 ? r.v[1] : 0;
     p->facet[at].next[i] = r.next;
-    tell_next(p, at, i, r.of);
+    tell_next(p, at, i);
 }
 
-/* The first seam of a facet that is still alone and meets s; DIM: there is none. */
-static int match(const polytope *p, int of, seam s)
-{
-    for (int k = 0; k < DIM; k++) {
-        seam other = seam_of(p, of, k);
-        if (other.next == ALONE && meet_in(other, s)) return k;
-    }
-    return DIM;
-}
+/* The seams of a facet put on r that end at the new tip: one that leads there, and one that leads from there. */
+static int seam_there(seam r) { return DIM == 2 ? 1 - r.v[1] : 1; }
+static int seam_back(seam r) { return DIM == 2 ? 1 - r.v[1] : 2; }
 
-/* Finds for each seam of these facets that is still alone the other side of it, among them. */
-static void join_all(polytope *p, int from, int end)
+/* Whether the facet put on r has the one put on the other next to it, along the seam there. */
+static int comes_before(seam r, seam other) { return DIM == 2 ? r.v[1] == 0 && other.v[1] == 1 : other.v[0] == r.v[1]; }
+
+/* Joins the facets that were put on the rim: the rim goes around, once or more often, so each has one before it and one
+ * after it. Where tips are passed more often than once any pairing will do. */
+static void join_all(polytope *p)
 {
-    for (int a = from; a < end; a++)
-        for (int i = 0; i < DIM; i++)
-            for (int b = a + 1; b < end && p->facet[a].next[i] == ALONE; b++) {
-                int k = match(p, b, seam_of(p, a, i));
-                if (k == DIM) continue;
-                p->facet[a].next[i] = (int16_t)b;
-                p->facet[b].next[k] = (int16_t)a;
-            }
+    for (int a = 0; a < p->rims; a++)
+        for (int b = 0; b < p->rims; b++) {
+            seam from = p->rim[a], to = p->rim[b];
+            int16_t *next = &p->facet[from.of].next[seam_there(from)], *back = &p->facet[to.of].next[seam_back(to)];
+            if (*back != ALONE || !comes_before(from, to)) continue;
+            *next = to.of;
+            *back = from.of;
+            break;
+        }
 }
 
 /* Drops the facets that are marked; the last ones move to their places. */
@@ -423,8 +455,26 @@ static void sweep(polytope *p)
         while (p->facets > k && p->facet[p->facets - 1].gone) p->facets--;
         if (k >= p->facets || !p->facet[k].gone) continue;
         p->facet[k] = p->facet[--p->facets];
-        for (int i = 0; i < DIM; i++) tell_next(p, k, i, p->facets);
+        for (int i = 0; i < DIM; i++) tell_next(p, k, i);
     }
+}
+
+/* The facets on the rim, which are the last so far, take the places of those that are gone, and are tied in. Seams of
+ * the rim know them from then on. */
+static void settle_in(polytope *p, int before)
+{
+    int hole = 0, end = before;
+    for (int k = 0; k < p->rims; k++) {
+        while (hole < before && !p->facet[hole].gone) hole++;
+        int at = hole < before ? hole : end++;
+        p->facet[at] = p->facet[before + k];
+        tie_to_rim(p, at, p->rim[k]);
+        p->rim[k].of = (int16_t)at;
+    }
+    p->facets = end;
+    join_all(p);
+    while (hole < before && !p->facet[hole].gone) hole++;
+    if (hole < before) sweep(p);
 }
 
 enum growth { GROWN, FULL, LOWERED };
@@ -447,9 +497,7 @@ static enum growth grow(polytope *p, facet *f, const tip *t)
         return end;
     }
     p->tips++;
-    for (int k = 0; k < p->rims; k++) tie_to_rim(p, before + k, p->rim[k]);
-    join_all(p, before, p->facets);
-    sweep(p);
+    settle_in(p, before);
     return GROWN;
 }
 
@@ -505,16 +553,18 @@ static void forget_tips(polytope *p)
 static void put_simplex(polytope *p, real turn)
 {
 #if DIM == 2
-    static const int16_t side[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+    static const int16_t side[3][2] = {{0, 1}, {1, 2}, {2, 0}}, across[3][2] = {{2, 1}, {0, 2}, {1, 0}};
 #else
     static const int16_t side[4][3] = {{2, 1, 0}, {1, 3, 0}, {3, 2, 0}, {2, 3, 1}};
+    static const int16_t across[4][3] = {{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {2, 1, 0}};
 #endif
     for (int k = 0; k <= DIM; k++) {
         int16_t v[DIM];
         for (int i = 0; i < DIM; i++) v[i] = side[k][turn > 0 || i > 1 ? i : 1 - i];
         put_facet(p, v);
+        for (int i = 0; i < DIM; i++) /* turned over, the seams are passed the other way around */
+            p->facet[k].next[i] = across[k][turn > 0 ? i : DIM == 2 ? 1 - i : (DIM - i) % DIM];
     }
-    join_all(p, 0, p->facets);
 }
 
 /* The same, whichever way they turn: so that the last of them is not beyond the first facet. */

@@ -445,12 +445,22 @@ static int has_corners(const shape *s)
     return k.data != UNKNOWN && !k.in;
 }
 
+static int is_box(const shape *s) { return s->support == pub(support_box); }
+
+/* The box's corner farthest along the direction. */
+static vec box_corner(const shape *s, vec along)
+{
+    vec r = load(((const box *)s->data)->half);
+    EACH(r.c[i] = along.c[i] < 0 ? -r.c[i] : r.c[i]);
+    return r;
+}
+
 /* How many, of a set that has them, and whose support has found the data good. */
 static size_t count_corners(const shape *s)
 {
     int n = ready_of(s->support).data;
     if (n == CLOUD) return ((const points *)s->data)->count;
-    if (s->support == pub(support_box)) return (size_t)1 << DIM;
+    if (is_box(s)) return (size_t)1 << DIM;
     return n > 0 ? (size_t)n / DIM : 1;
 }
 
@@ -461,7 +471,7 @@ static vec nth_corner(const shape *s, size_t n)
         const points *p = s->data;
         return load(p->v + n * stride_of(p));
     }
-    if (s->support == pub(support_box)) {
+    if (is_box(s)) {
         r = load(((const box *)s->data)->half);
         EACH(r.c[i] = n >> i & 1 ? -r.c[i] : r.c[i]);
     }

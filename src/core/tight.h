@@ -233,6 +233,7 @@ static dyadics placed(const shape *s, vec x)
     for (int i = 0; i < DIM; i++) {
         r.c[i] = dyadic_of(s->pose ? s->pose->p[i] : x.c[i]);
         for (int j = 0; j < DIM && s->pose; j++) {
+            if (s->pose->m[DIM * i + j] == 0) continue;
             dyadic m = dyadic_of(s->pose->m[DIM * i + j]), t = dyadic_of(x.c[j]);
             t = times(&m, &t);
             r.c[i] = plus(&r.c[i], &t, 1);
@@ -248,6 +249,7 @@ static dyadics pulled(const shape *s, const dyadics *way)
     for (int j = 0; j < DIM && s->pose; j++) {
         r.c[j] = nought(0);
         for (int i = 0; i < DIM; i++) {
+            if (s->pose->m[DIM * i + j] == 0) continue;
             dyadic t = dyadic_of(s->pose->m[DIM * i + j]);
             t = times(&t, &way->c[i]);
             r.c[j] = plus(&r.c[j], &t, 1);
@@ -294,6 +296,7 @@ static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
         if (dot(p, d) < top || same(p, *x)) continue;
         dyadic rise = nought(0);
         for (int j = 0; j < DIM; j++) {
+            if (p.c[j] == from.c[j]) continue;
             dyadic to = dyadic_of(p.c[j]), at = dyadic_of(from.c[j]), e = plus(&to, &at, -1);
             e = times(&e, &g.c[j]);
             rise = plus(&rise, &e, 1);
