@@ -1,0 +1,684 @@
+/* SPDX-License-Identifier: MIT */
+/* The expanding polytope and its proof from inside: a variant is compiled in, so that surfaces can be made that no pair
+ * of shapes is known to lead to. Whatever rounding may say of who sees whom, the surface stays closed; what is proven
+ * is held against the turns that it makes around the origin, counted with 113 bits. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <cmocka.h>
+#include "quad.h"
+
+#if VARIANT_DIM == 2
+#include "../src/gjk2.c"
+#else
+#include "../src/gjk3.c"
+#endif
+
+#define PI 3.14159265358979323846
+#define MOST 64 /* tips */
+
+/* ---- a polytope to work on ---- */
+
+static usual_room room_of_all, as_it_was;
+static search q;
+static goal g;
+static shape tips_themselves, nothing; /* a tip's x is its place, y is 0 */
+static depth d;
+static uint64_t state_of_draws;
+
+static void draw_from(int number) { state_of_draws = (uint64_t)number; }
+
+static uint64_t any_bits(void)
+{
+    uint64_t z = state_of_draws += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static int any_below(int n) { return (int)(any_bits() % (uint64_t)n); }
+
+static real any_between(real least, real most)
+{
+    return least + (most - least) * ((real)(any_bits() >> 11) / (real)0x1p53);
+}
+
+static vec any_vec(real most)
+{
+    vec r;
+    for (int i = 0; i < DIM; i++) {
+        r.c[i] = any_between(-most, most);
+    }
+    return r;
+}
+
+static vec any_unit(void)
+{
+    for (;;) {
+        vec n = any_vec(1);
+        if (dot(n, n) <= 1 && dot(n, n) > (real)0.01) {
+            return mul(n, 1 / length(n));
+        }
+    }
+}
+
+/* Of length 2^-binades. */
+static vec any_short(int binades) { return mul(any_unit(), ldexp(1, -binades)); }
+
+/* No facets, room for so many tips, which are known without rounding or only to it. */
+static void begin(int tips, int exact)
+{
+    memset(&room_of_all, 0, sizeof room_of_all);
+    memset(&q, 0, sizeof q);
+    memset(&g, 0, sizeof g);
+    memset(&d, 0, sizeof d);
+    q.d.doubt = 64 * UNIT;
+    q.lower = -REAL_MAX;
+    g.exact = exact;
+    d.q = &q;
+    d.g = &g;
+    d.a = &tips_themselves;
+    d.b = &nothing;
+    d.dropped.least = REAL_MAX;
+    d.p = polytope_in(&room_of_all, (size_t)tips);
+    d.p.noise = exact ? 32 * UNIT * UNIT : 4 * UNIT;
+    d.p.fine = exact;
+}
+
+static tip tip_at(vec w)
+{
+    tip t = {w, axis(0, 0), w, axis(0, 0)};
+    return t;
+}
+
+static void put_tip(vec w) { d.p.tip[d.p.tips++] = tip_at(w); }
+
+/* A simplex with its middle there. */
+static void put_simplex_at(vec middle, real size)
+{
+    vec sum = axis(0, 0);
+    for (int k = 0; k < DIM; k++) {
+        put_tip(add(middle, axis(k, size)));
+        sum = sub(sum, axis(k, size));
+    }
+    put_tip(add(middle, sum));
+    put_first(&d.p);
+}
+
+/* ---- what is true of a surface ---- */
+
+/* The determinant of the facet's corners: above 0 where the origin is on its inner side. */
+static quad volume(const facet *f)
+{
+    const real *a = d.p.tip[f->v[0]].w.c, *b = d.p.tip[f->v[1]].w.c;
+#if DIM == 2
+    return (quad)a[0] * (quad)b[1] - (quad)a[1] * (quad)b[0];
+#else
+    const real *c = d.p.tip[f->v[2]].w.c;
+    quad sum = 0;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        sum += (quad)c[i] * ((quad)a[j] * (quad)b[k] - (quad)a[k] * (quad)b[j]);
+    }
+    return sum;
+#endif
+}
+
+/* The angle under which the origin sees the facet, in space the solid one (van Oosterom, Strackee 1983). */
+static double angle(const facet *f)
+{
+    const vec a = d.p.tip[f->v[0]].w, b = d.p.tip[f->v[1]].w;
+#if DIM == 2
+    return atan2((double)volume(f), dot(a, b));
+#else
+    const vec c = d.p.tip[f->v[2]].w;
+    double la = length(a), lb = length(b), lc = length(c);
+    return 2 * atan2((double)volume(f), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+#endif
+}
+
+/* How often the facets go around the origin. */
+static double turns(void)
+{
+    double sum = 0;
+    for (int k = 0; k < d.p.facets; k++) {
+        sum += angle(&d.p.facet[k]);
+    }
+    return sum / (DIM == 2 ? 2 * PI : 4 * PI);
+}
+
+/* Each seam is at a wall; or has one other side, which says the same of it. */
+static void expect_closed(void)
+{
+    for (int at = 0; at < d.p.facets; at++) {
+        assert_false(d.p.facet[at].gone);
+        for (int i = 0; i < DIM; i++) {
+            seam s = seam_of(&d.p, at, i);
+            int others = 0;
+            assert_true(s.v[0] >= 0 && s.v[0] < d.p.tips);
+            if (s.next == WALL) {
+                continue;
+            }
+            assert_true(s.next >= 0 && s.next < d.p.facets && s.next != at);
+            for (int k = 0; k < DIM; k++) {
+                seam other = seam_of(&d.p, s.next, k);
+                others += other.next == at && meet_in(other, s);
+            }
+            assert_int_equal(others, 1);
+        }
+    }
+}
+
+/* How often the facets' seams pass from a tip to a tip, less how often back; in the plane, end at a tip less how often
+ * they start there. */
+typedef struct border {
+    int count[MOST][MOST];
+} border;
+
+static void find_border(border *b)
+{
+    memset(b, 0, sizeof *b);
+    for (int at = 0; at < d.p.facets; at++) {
+        for (int i = 0; i < DIM; i++) {
+            seam s = seam_of(&d.p, at, i);
+            b->count[s.v[0]][DIM == 2 ? 0 : s.v[1]] += DIM == 2 && s.v[1] ? -1 : 1;
+            b->count[DIM == 2 ? 0 : s.v[1]][s.v[0]] -= DIM == 3;
+        }
+    }
+}
+
+/* Whether two tips have more than one edge between them. */
+static int has_double_edge(void)
+{
+    static signed char seen[MOST][MOST];
+    memset(seen, 0, sizeof seen);
+    for (int at = 0; at < d.p.facets && DIM == 3; at++) {
+        for (int i = 0; i < DIM; i++) {
+            seam s = seam_of(&d.p, at, i);
+            if (seen[s.v[0]][s.v[1]]++) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* ---- growth ---- */
+
+/* As it is now. */
+static polytope copy_of_it(void)
+{
+    polytope p = polytope_in(&as_it_was, (size_t)d.p.most_tips);
+    memcpy(&as_it_was, &room_of_all, sizeof as_it_was);
+    p.tips = d.p.tips;
+    p.facets = d.p.facets;
+    return p;
+}
+
+static enum growth grow_to(facet *f, const tip *t)
+{
+    polytope was = copy_of_it();
+    facet from = *f;
+    border before, after;
+    find_border(&before);
+    enum growth end = grow(&d.p, f, t);
+    expect_closed();
+    if (end == GROWN) {
+        assert_int_equal(d.p.tips, was.tips + 1);
+        assert_memory_equal(&d.p.tip[was.tips], t, sizeof *t);
+        for (int k = 0; k < d.p.facets; k++) {
+            assert_memory_not_equal(&d.p.facet[k], &from, sizeof from);
+        }
+        find_border(&after);
+        assert_memory_equal(&after, &before, sizeof after);
+    } else {
+        assert_true(d.p.facets == was.facets && d.p.tips == was.tips);
+        assert_memory_equal(d.p.tip, was.tip, (size_t)was.tips * sizeof(tip));
+        assert_memory_equal(d.p.facet, was.facet, (size_t)was.facets * sizeof(facet));
+    }
+    return end;
+}
+
+/* Of a ball around there. */
+static enum growth grow_toward_ball(vec middle, real radius)
+{
+    facet *f = lowest(&d.p);
+    tip t = tip_at(add(middle, mul(f->n, radius)));
+    return sees(&d.p, f, &t) ? grow_to(f, &t) : LOWERED;
+}
+
+static void put_ball(vec middle, real radius, int tips)
+{
+    put_simplex_at(middle, radius / 2);
+    while (d.p.tips < tips && grow_toward_ball(middle, radius) == GROWN) {
+    }
+}
+
+/* In a ball's polytope all tips are corners, and each facet is turned outward. */
+static void grows_in_a_ball(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 40; n++) {
+        draw_from(n);
+        vec middle = any_vec((real)0.4);
+        begin(MOST, n & 1);
+        put_ball(middle, 1, MOST);
+        assert_true(d.p.tips > 20);
+        for (int k = 0; k < d.p.facets; k++) {
+            const facet *f = &d.p.facet[k];
+            real off = f->height - dot(f->n, middle);
+            assert_true(off > 0 && off < 1 + 8 * UNIT);
+            assert_true(f->height == least_height(&d.p, f, f->n));
+        }
+        assert_true(fabs(turns() - 1) < 1e-9);
+    }
+}
+
+/* Whether the facet, by its tips, is one of that polytope's. */
+static int is_in(const facet *f, const polytope *of)
+{
+    for (int k = 0; k < of->facets; k++) {
+        int same_tips = 1;
+        for (int i = 0; i < DIM; i++) {
+            same_tips &= memcmp(&d.p.tip[f->v[i]], &of->tip[of->facet[k].v[i]], sizeof(tip)) == 0;
+        }
+        if (same_tips) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Makes room, as the search would, between any heights; what stays is as it was. */
+static void make_any_room(void)
+{
+    polytope was = copy_of_it();
+    int dropped = d.dropped.facets;
+    q.lower = -any_between(-1, 1);
+    make_room(&d);
+    assert_int_equal(d.dropped.facets - dropped, was.facets - d.p.facets);
+    for (int k = 0; k < d.p.facets; k++) {
+        assert_true(is_in(&d.p.facet[k], &was));
+    }
+    expect_closed();
+}
+
+/* How many facets there are to be once t is in beyond f: those that see it, as far as they are next to each other, give
+ * way to one from each seam of theirs. */
+static int facets_after(const facet *f, const tip *t)
+{
+    int goes[FACETS_FOR(MOST)] = {0}, more = 1, count = d.p.facets;
+    goes[f - d.p.facet] = 1;
+    while (more) {
+        more = 0;
+        for (int k = 0; k < d.p.facets; k++) {
+            for (int i = 0; i < DIM && !goes[k] && sees(&d.p, &d.p.facet[k], t); i++) {
+                int next = d.p.facet[k].next[i];
+                goes[k] = next != WALL && goes[next];
+                more |= goes[k];
+            }
+        }
+    }
+    for (int k = 0; k < d.p.facets; k++) {
+        count -= goes[k];
+        for (int i = 0; i < DIM && goes[k]; i++) {
+            int next = d.p.facet[k].next[i];
+            count += next == WALL || !goes[next];
+        }
+    }
+    return count;
+}
+
+/* Facets that are turned any way, at any height, see any corner: the surface is closed after each step, around what was
+ * dropped as well, also where two tips have two edges between them. */
+static void stays_closed(void **state)
+{
+    int grown = 0, not_grown = 0, doubled = 0, rooms = 0;
+    (void)state;
+    for (int n = 0; n < 400; n++) {
+        draw_from(n);
+        begin(8 + n % 30, 0);
+        put_simplex_at(any_vec(1), 1);
+        for (int step = 0; step < 60; step++) {
+            tip t = tip_at(any_vec(2));
+            facet *f = &d.p.facet[any_below(d.p.facets)];
+            for (int k = 0; k < d.p.facets; k++) {
+                d.p.facet[k].n = any_unit();
+                d.p.facet[k].height = any_between(-1, 1);
+            }
+            f->height = -1; /* it may get lower */
+            int facets = facets_after(f, &t);
+            enum growth end = grow_to(f, &t);
+            assert_true(end != GROWN || d.p.facets == facets);
+            grown += end == GROWN;
+            not_grown += end != GROWN;
+            doubled += has_double_edge();
+            if (d.p.tips == d.p.most_tips) {
+                make_any_room();
+                rooms += d.p.tips < d.p.most_tips;
+            }
+        }
+    }
+    printf("grown %d times, not %d, room made %d times, %d times an edge was double\n", grown, not_grown, rooms,
+           doubled);
+    assert_true(grown > 1000 && not_grown > 100 && rooms > 100);
+    assert_true(DIM == 2 || doubled > 100);
+}
+
+/* A surface around the origin never gets lower: a corner that would make it so is noise. */
+static void never_gets_lower(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 100; n++) {
+        draw_from(n);
+        begin(MOST, 0);
+        put_ball(any_vec((real)0.1), 1, 20);
+        facet *f = lowest(&d.p);
+        tip t = tip_at(mul(f->n, f->height * any_between(0, (real)0.9)));
+        assert_true(f->height > 0);
+        assert_int_equal(grow_to(f, &t), LOWERED);
+        f->height = -f->height; /* around the origin or not, nobody knows */
+        assert_int_equal(grow_to(f, &t), GROWN);
+    }
+}
+
+static void no_room_for_tips(void **state)
+{
+    (void)state;
+    begin(10, 0);
+    put_ball(axis(0, 0), 1, 10);
+    assert_int_equal(d.p.tips, 10);
+    assert_int_equal(grow_toward_ball(axis(0, 0), 2), FULL);
+}
+
+#if DIM == 3
+/* A corner below a base of many sees all of that: more new facets than there is room for. */
+static void no_room_for_facets(void **state)
+{
+    enum { BASE = 12 };
+    (void)state;
+    begin(BASE + 2, 0);
+    for (int k = 0; k < BASE; k++) {
+        real a = (real)(2 * PI * (k % 3 * 4 + k / 3) / BASE); /* three far apart, then those between */
+        tip t = tip_at((vec){{(real)cos(a), (real)sin(a), (real)-0.5}});
+        int seen = 0;
+        if (k < 3) {
+            put_tip(t.w);
+            if (k == 2) {
+                put_tip(axis(2, 1));
+                put_first(&d.p);
+            }
+            continue;
+        }
+        while (!sees(&d.p, &d.p.facet[seen], &t)) {
+            seen++;
+        }
+        assert_int_equal(grow_to(&d.p.facet[seen], &t), GROWN);
+    }
+    tip bottom = tip_at(axis(2, -3));
+    assert_int_equal(d.p.tips, BASE + 1);
+    assert_true(sees(&d.p, lowest(&d.p), &bottom));
+    assert_int_equal(grow_to(lowest(&d.p), &bottom), FULL);
+}
+#endif
+
+/* ---- the proof ---- */
+
+static tally count_all(void)
+{
+    tally all = d.dropped;
+    for (int k = 0; k < d.p.facets; k++) {
+        count_in(&d, &d.p.facet[k], &all);
+    }
+    return all;
+}
+
+/* Balls around the origin, beside it and near its edge: what is proven is true, and away from the edge, all that is. */
+static void what_is_proven_goes_around(void **state)
+{
+    int proven = 0, around = 0;
+    (void)state;
+    for (int n = 0; n < 600; n++) {
+        draw_from(n);
+        real near = any_below(3) ? ldexp(1, -any_below(56)) : 1, far = 1 + near * any_between(-1, 1), upper = REAL_MAX;
+        vec middle = mul(any_unit(), far);
+        begin(MOST, any_below(2));
+        put_ball(middle, 1, 4 + any_below(40));
+        int holds = bound(&d, &upper), goes = turns() > 0.5;
+        assert_true(!holds || goes);
+        assert_true(upper == REAL_MAX || (holds && upper < 0 && upper >= -lowest(&d.p)->height - 8 * UNIT));
+        assert_true(holds || !(lowest(&d.p)->height > (real)1e-12));
+        proven += holds;
+        around += goes;
+    }
+    printf("%d surfaces go around the origin, %d are proven to\n", around, proven);
+    assert_true(proven > 100 && around < 500);
+}
+
+/* A facet in a plane near the origin, wide or narrow, turned either way. */
+static void put_any_facet(void)
+{
+    static const int16_t v[3] = {0, 1, 2};
+    vec along = any_unit(), across = any_short(any_below(60));
+    vec off = any_short(any_below(2) ? any_below(12) : 40 + any_below(24));
+    begin(MOST, any_below(2));
+    for (int k = 0; k < DIM; k++) {
+        vec to = mul(along, any_between(-1, 1));
+        to = add(to, mul(across, any_between(-1, 1)));
+        put_tip(add(off, to));
+    }
+    put_facet(&d.p, v);
+}
+
+/* A facet counts for no more than its angle where its side is certain, and for no less where it is in doubt: so far as
+ * 113 bits tell the side. */
+static void facets_count_for_their_angles(void **state)
+{
+    int counted = 0, certain = 0, in_doubt = 0, proven = 0;
+    (void)state;
+    draw_from(0);
+    for (int n = 0; n < 200000; n++) {
+        tally t = {.least = REAL_MAX};
+        put_any_facet();
+        quad v = volume(&d.p.facet[0]);
+        double a = angle(&d.p.facet[0]) * (v > 0 ? 1 - 1e-9 : 1);
+        count_in(&d, &d.p.facet[0], &t);
+        if (!(t.least > 0) || quad_abs(v) < (quad)0x1p-100) {
+            continue;
+        }
+        counted++;
+        certain += t.certain > 0;
+        in_doubt += t.doubtful > 0;
+        proven += t.proven;
+        assert_true(!(t.certain > 0) || (v > 0 && t.certain <= a));
+        assert_true(t.proven == 0 || (v > 0 && g.exact));
+        assert_true(t.certain > 0 || t.proven > 0 || t.doubtful >= fabs(a));
+    }
+    printf("%d facets, %d of them certain, %d in doubt, %d proven\n", counted, certain, in_doubt, proven);
+    assert_true(certain > 100 && in_doubt > 10 && proven > 100);
+}
+
+/* The certain must outweigh the doubtful; without any of these, one that is proven will do. */
+static void certain_outweighs_doubtful(void **state)
+{
+    static const struct {
+        int proven, surrounds;
+        real certain, doubtful;
+    } of[] = {{0, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 0, 1}, {0, 1, 1, 0}, {0, 0, 1, 0.5}, {0, 1, 1, 0.25}, {3, 0, 1, 1}};
+    (void)state;
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        tally t = {DIM + 1, of[k].proven, 1, of[k].certain, of[k].doubtful};
+        assert_int_equal(surrounds(&t), of[k].surrounds);
+    }
+}
+
+/* Needles and specks beside the origin have no facet that is lower than they are far: that does not make them go
+ * around it. */
+static void thin_ones_go_around_nothing(void **state)
+{
+    int high = 0;
+    (void)state;
+    for (int n = 0; n < 2000; n++) {
+        draw_from(n);
+        real thin = ldexp(1, -52 - (any_below(8) ? any_below(1000) : 0)), long_way = any_below(4) ? (real)0.5 : 0;
+        real upper = REAL_MAX;
+        vec along = any_below(2) ? any_unit() : axis(any_below(DIM), 1);
+        begin(MOST, any_below(2));
+        for (int k = 0; k <= DIM; k++) {
+            vec to = mul(along, 1 + long_way * any_between(-1, 1));
+            put_tip(add(to, any_vec(thin)));
+        }
+        put_first(&d.p);
+        expect_closed();
+        assert_false(bound(&d, &upper));
+        assert_true(upper == REAL_MAX);
+        high += count_all().least > 0;
+    }
+    printf("%d thin ones have no facet that is low\n", high);
+    assert_true(high > 10);
+}
+
+/* ---- dropping ---- */
+
+static int has_tip(const facet *f, int v)
+{
+    int r = 0;
+    for (int i = 0; i < DIM; i++) {
+        r |= f->v[i] == v;
+    }
+    return r;
+}
+
+/* Facets with a tip in common with one below some height, all in all. */
+static int count_low(real height)
+{
+    int low[MOST] = {0}, count = 0;
+    for (int k = 0; k < d.p.facets; k++) {
+        for (int v = 0; v < d.p.tips; v++) {
+            low[v] |= d.p.facet[k].height < height && has_tip(&d.p.facet[k], v);
+        }
+    }
+    for (int k = 0; k < d.p.facets; k++) {
+        int at = 0;
+        for (int v = 0; v < d.p.tips; v++) {
+            at |= low[v] && has_tip(&d.p.facet[k], v);
+        }
+        count += at;
+    }
+    return count;
+}
+
+/* What no more than so many facets are lower than. */
+static real height_of_rank(int rank)
+{
+    real most = -REAL_MAX;
+    for (int k = 0; k < d.p.facets; k++) {
+        int lower = 0;
+        for (int j = 0; j < d.p.facets; j++) {
+            lower += d.p.facet[j].height < d.p.facet[k].height;
+        }
+        most = lower <= rank ? larger(d.p.facet[k].height, most) : most;
+    }
+    return most;
+}
+
+static int count_tips(void)
+{
+    int count = 0;
+    for (int v = 0; v < d.p.tips; v++) {
+        int at = 0;
+        for (int k = 0; k < d.p.facets; k++) {
+            at |= has_tip(&d.p.facet[k], v);
+        }
+        count += at;
+    }
+    return count;
+}
+
+/* What is low stays and what touches it, the rest is dropped and counts on; then there is room for more. */
+static void what_is_dropped_counts(void **state)
+{
+    const int tips = DIM == 2 ? 16 : 40;
+    (void)state;
+    for (int n = 0; n < 100; n++) {
+        draw_from(n);
+        vec middle = mul(any_unit(), (real)0.5);
+        begin(tips, 0);
+        put_ball(middle, 1, tips);
+        tally before = count_all();
+        q.lower = -height_of_rank(6);
+        int low = count_low(-q.lower);
+        make_room(&d);
+        tally after = count_all();
+        expect_closed();
+        assert_int_equal(d.p.facets, low);
+        assert_int_equal(count_tips(), d.p.tips);
+        assert_true(d.p.tips < tips && d.dropped.facets > 0);
+        assert_int_equal(after.facets, before.facets);
+        assert_true(after.least == before.least && d.dropped.least > after.least);
+        assert_true(fabs((double)(after.certain - before.certain)) <= 1e-12);
+        assert_int_equal(grow_toward_ball(middle, 1), GROWN);
+    }
+}
+
+/* ---- numbers ---- */
+
+/* However short a vector is, it has a direction; and a facet, as far as the tips are known, is turned outward. */
+static void directions_of_any_size(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 3000; n++) {
+        draw_from(n);
+        vec way = any_unit(), u = unit_of(mul(way, ldexp(1, -(n % 1020))), axis(0, 0));
+        assert_true(fabs((double)length(u) - 1) <= 4 * (double)UNIT && length(sub(u, way)) <= 8 * UNIT);
+        begin(MOST, 1);
+        put_simplex_at(axis(0, 0), ldexp(1, -any_below(DIM == 2 ? 1000 : 90)));
+        for (int k = 0; k < d.p.facets; k++) {
+            assert_true(d.p.facet[k].height > 0);
+            assert_true(fabs((double)length(d.p.facet[k].n) - 1) <= 8 * (double)UNIT);
+        }
+    }
+    assert_true(same(unit_of(axis(1, 0), axis(1, 3)), axis(1, 1)));
+    assert_true(same(unit_of(axis(1, 0), axis(1, 0)), axis(0, 1)));
+}
+
+/* As many as there are bytes for, and no more; and 16 bits are enough to count what that makes. */
+static void rooms(void **state)
+{
+    (void)state;
+    for (size_t n = FEWEST_TIPS; n <= MOST_TIPS; n += n / 8 + 1) {
+        assert_int_equal(tips_in(bytes_for(n)), n);
+        assert_int_equal(tips_in(bytes_for(n) - 1), n - 1);
+    }
+    for (size_t n = FEWEST_TIPS; n <= USUAL_TIPS; n++) {
+        polytope p = polytope_in(&room_of_all, n);
+        assert_true((size_t)((char *)(p.rim + p.most_facets) - (char *)&room_of_all) <= bytes_for(n));
+    }
+    assert_int_equal(tips_in(SIZE_MAX / 4), MOST_TIPS);
+    assert_true(FACETS_FOR(MOST_TIPS) <= INT16_MAX);
+    assert_true(bytes_for(USUAL_TIPS) <= sizeof(usual_room));
+    assert_true(FEWEST_TIPS >= 2 * (DIM + 1));
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(grows_in_a_ball),
+        cmocka_unit_test(stays_closed),
+        cmocka_unit_test(never_gets_lower),
+        cmocka_unit_test(no_room_for_tips),
+#if DIM == 3
+        cmocka_unit_test(no_room_for_facets),
+#endif
+        cmocka_unit_test(what_is_proven_goes_around),
+        cmocka_unit_test(facets_count_for_their_angles),
+        cmocka_unit_test(certain_outweighs_doubtful),
+        cmocka_unit_test(thin_ones_go_around_nothing),
+        cmocka_unit_test(what_is_dropped_counts),
+        cmocka_unit_test(directions_of_any_size),
+        cmocka_unit_test(rooms)
+    };
+    return cmocka_run_group_tests_name("surface", tests, NULL, NULL);
+}
