@@ -369,6 +369,14 @@ static void ask_about_pair(figures *s)
     }
 }
 
+/* Moves b along the normal, until they overlap by that. */
+static void push(const V(result) * r, double by)
+{
+    for (int i = 0; i < DIM; i++) {
+        drawn.b.pose.p[i] = (real)((double)drawn.b.pose.p[i] - ((double)r->value + by) * (double)r->normal[i]);
+    }
+}
+
 /* Moves bodies that are apart into each other, by any part of their size. */
 static void push_in(draws *d)
 {
@@ -376,9 +384,7 @@ static void push_in(draws *d)
     double by = span() * magnitude(d, -4, 0) / 10;
     memset(&r, 0, sizeof r);
     r.status = V(distance)(&p->a.shape, &p->b.shape, NULL, &r);
-    for (int i = 0; i < DIM; i++) {
-        drawn.b.pose.p[i] = (real)((double)drawn.b.pose.p[i] - ((double)r.value + by) * (double)r.normal[i]);
-    }
+    push(&r, by);
 }
 
 static void one_pair(figures *s)
@@ -489,98 +495,103 @@ static void draw_here(int family)
     find_truth_of_pair();
 }
 
-/* Of round bodies few pairs: their truth costs a millisecond. */
-static long pairs_here(int family) { return is_costly((enum family)family) ? PAIRS_HERE / 4 : PAIRS_HERE; }
+/* What is asked about many pairs here, and how often it was what is looked for. */
+typedef struct here {
+    long pairs, deep, found;
+} here;
+
+/* Asks about a few pairs of each family; of round bodies fewer: their truth costs a millisecond. */
+static here ask_here(void (*ask_about_it)(here *h))
+{
+    here h = {0, 0, 0};
+    for (int f = 0; f < FAMILIES; f++) {
+        long pairs = is_costly((enum family)f) ? PAIRS_HERE / 4 : PAIRS_HERE;
+        for (at = 0; at < pairs; at++) {
+            draw_here(f);
+            h.pairs++;
+            h.deep += meets;
+            ask_about_it(&h);
+        }
+    }
+    return h;
+}
 
 /* However little room there is, the bracket holds; what lies in it before is of no account; and 64 corners are what
  * there is room for by default. */
-static void one_workspace(V(result) * usual, long *full)
+static void ask_in_rooms(here *h)
 {
     static const uint32_t corners[] = {8, 9, 10, 12, 16, 31, MOST_CORNERS};
-    V(result) r, again;
-    ask_for_truth(NULL, usual);
+    V(result) usual, r, again;
+    ask_for_truth(NULL, &usual);
     for (size_t k = 0; k < sizeof corners / sizeof *corners; k++) {
         size_t bytes = V(workspace_size)(corners[k]);
         ask_within(bytes, 0, &r);
         ask_within(bytes + corners[k] % 4 * sizeof(real) + k, 0xff, &again);
-        *full += r.status == GJK_LIMIT && usual->status != GJK_LIMIT;
+        h->found += r.status == GJK_LIMIT && usual.status != GJK_LIMIT;
         expect_answer("some bytes more, too few for a corner, made a difference", &again, is_same(&r, &again));
         ask_within(bytes, 0xff, &again);
         expect_answer("what was in the workspace made a difference", &again, is_same(&r, &again));
     }
     ask_within(V(workspace_size)(64), 0x5a, &r);
-    expect_answer("64 corners are not the usual room", &r, is_same(&r, usual));
+    expect_answer("64 corners are not the usual room", &r, is_same(&r, &usual));
 }
 
 static void workspaces(void **state)
 {
-    long asked = 0, deep = 0, full = 0;
     (void)state;
-    for (int f = 0; f < FAMILIES; f++) {
-        for (at = 0; at < pairs_here(f); at++) {
-            V(result) r;
-            draw_here(f);
-            one_workspace(&r, &full);
-            asked++;
-            deep += meets;
-        }
-    }
-    printf("%-6s workspaces: %ld pairs, %ld overlap, %ld times one was full\n", VARIANT, asked, deep, full);
-    assert_true(deep > 0 && full > 0 && full * (DIM == 2 ? 30 : 3) < asked);
+    here h = ask_here(ask_in_rooms);
+    printf("%-6s workspaces: %ld pairs, %ld overlap, %ld times one was full\n", VARIANT, h.pairs, h.deep, h.found);
+    assert_true(h.deep > 0 && h.found > 0 && h.found * (DIM == 2 ? 15 : 2) < h.pairs);
 }
 
 /* However few steps, too; and no more than allowed. */
+static void ask_in_few_steps(here *h)
+{
+    V(options) o = default_options();
+    V(result) r;
+    for (o.max_steps = 1; o.max_steps <= 20; o.max_steps++) {
+        ask_for_truth(&o, &r);
+        expect_answer("more steps than allowed", &r, r.steps >= 0 && (uint32_t)r.steps <= o.max_steps);
+        h->found += r.status == GJK_LIMIT;
+    }
+}
+
 static void few_steps(void **state)
 {
-    long limits = 0, deep = 0;
     (void)state;
-    for (int f = 0; f < FAMILIES; f++) {
-        for (at = 0; at < pairs_here(f); at++) {
-            V(options) o = default_options();
-            V(result) r;
-            draw_here(f);
-            deep += meets;
-            for (o.max_steps = 1; o.max_steps <= 20; o.max_steps++) {
-                ask_for_truth(&o, &r);
-                expect_answer("more steps than allowed", &r, r.steps >= 0 && (uint32_t)r.steps <= o.max_steps);
-                limits += r.status == GJK_LIMIT;
-            }
-        }
-    }
-    printf("%-6s few steps: %ld pairs overlap, %ld limits\n", VARIANT, deep, limits);
-    assert_true(deep > 0 && limits > 0);
+    here h = ask_here(ask_in_few_steps);
+    printf("%-6s few steps: %ld pairs overlap, %ld limits\n", VARIANT, h.deep, h.found);
+    assert_true(h.deep > 0 && h.found > 0);
 }
 
 /* Cutoffs and tolerances are as for distance: what was asked for is kept, or the status says otherwise. */
-static void tolerances(void **state)
+static void ask_for_less(here *h)
 {
     static const double asked[] = {1e-1, 1e-2, 1e-4};
-    long kept = 0;
-    (void)state;
-    for (int f = 0; f < FAMILIES; f++) {
-        for (at = 0; at < pairs_here(f); at++) {
-            V(options) o = default_options();
-            V(result) r;
-            draw_here(f);
-            for (int k = 0; k < 6; k++) {
-                double tolerance = asked[k / 2];
-                o.abs_tol = k % 2 ? 0 : (real)(tolerance * scale());
-                o.rel_tol = k % 2 ? (real)tolerance : 0;
-                double enough;
-                ask_for_truth(&o, &r);
-                enough = (double)o.abs_tol + (double)o.rel_tol * fabs((double)(r.upper < 0 ? r.lower : r.upper));
-                kept += width_of(&r) <= enough * (1 + 8 * U) + LEAST;
-                expect_answer("wider than asked, where rounding does not stand in the way", &r,
-                              r.status == GJK_OK || r.status == GJK_LIMIT || !meets || !is_normal() ||
-                                  enough < 1e4 * U * span());
-                expect_answer("wider than asked, and the status does not say so", &r,
-                              !is_normal() || width_of(&r) <= enough * (1 + 8 * U) + LEAST || r.status != GJK_OK ||
-                                  in_u((quad)width_of(&r), span()) <= 100);
-            }
-        }
+    for (int k = 0; k < 6; k++) {
+        V(options) o = default_options();
+        V(result) r;
+        double tolerance = asked[k / 2], enough;
+        o.abs_tol = k % 2 ? 0 : (real)(tolerance * scale());
+        o.rel_tol = k % 2 ? (real)tolerance : 0;
+        ask_for_truth(&o, &r);
+        enough = (double)o.abs_tol + (double)o.rel_tol * fabs((double)(r.upper < 0 ? r.lower : r.upper));
+        h->found += width_of(&r) <= enough * (1 + 8 * U) + LEAST;
+        expect_answer("wider than asked, where rounding does not stand in the way", &r,
+                      r.status == GJK_OK || r.status == GJK_LIMIT || !meets || !is_normal() ||
+                          enough < 1e4 * U * span());
+        expect_answer("wider than asked, and the status does not say so", &r,
+                      !is_normal() || width_of(&r) <= enough * (1 + 8 * U) + LEAST || r.status != GJK_OK ||
+                          in_u((quad)width_of(&r), span()) <= 100);
     }
-    printf("%-6s tolerances: kept %ld times\n", VARIANT, kept);
-    assert_true(kept > 0);
+}
+
+static void tolerances(void **state)
+{
+    (void)state;
+    here h = ask_here(ask_for_less);
+    printf("%-6s tolerances: kept %ld times\n", VARIANT, h.found);
+    assert_true(h.found > 0);
 }
 
 /* ---- closed forms ---- */
@@ -749,7 +760,7 @@ static void stacked(void **state)
 
 /* ---- round shapes, deep in others ---- */
 
-#define SHARE 0.99        /* of the pairs that are within these: */
+#define SHARE 0.99        /* of many pairs that are within these: */
 #define USUAL_GOAL 1e-9   /* in the usual room, in scales */
 #define LARGER_GOAL 1e-12 /* in a larger one */
 #define LARGER_ROOM 1000
@@ -778,6 +789,12 @@ static void draw_any(draws *d, body *b, enum kind kind)
 
 /* Whether the bracket is as narrow as that; float shows no more than its roundings. */
 static int is_within(const V(result) * r, double goal) { return width_of(r) <= fmax(goal, 8 * U) * span(); }
+
+/* Whether so many are that share of all; of a few, all but one. */
+static int is_share(long count, long all, double share)
+{
+    return (double)(all - count) <= 1 + (1 - share) * (double)all;
+}
 
 typedef struct convergence {
     long pairs, usual, larger, limits;
@@ -826,8 +843,8 @@ static void round_shapes(void **state)
            "%.1f; in a larger one %ld within %.0e\n",
            VARIANT, c.pairs, c.usual, USUAL_GOAL, c.widest, c.limits, mean(c.calls, c.pairs), c.larger, LARGER_GOAL);
     assert_true(c.pairs > pairs_per_family);
-    assert_true((double)c.usual >= SHARE * (double)c.pairs);
-    assert_true((double)c.larger >= SHARE * (double)c.pairs);
+    assert_true(is_share(c.usual, c.pairs, SHARE));
+    assert_true(is_share(c.larger, c.pairs, SHARE));
 }
 
 /* ---- to the last place ---- */
@@ -889,18 +906,15 @@ static void last_places_of_depths(void **state)
                 continue;
             }
             ask(NULL, &r);
-            for (int i = 0; i < DIM; i++) {
-                double way = (double)r.value + by * scale();
-                drawn.b.pose.p[i] = (real)((double)drawn.b.pose.p[i] - way * (double)r.normal[i]);
-            }
+            push(&r, by * scale());
             ask_to_the_last_place(&l);
         }
     }
     printf("%-6s to the last place: %ld pairs, %ld settled, %ld of them flush; error %.3g ulp, depth down to %.2g\n",
            VARIANT, l.pairs, l.settled, l.flush, l.max_error, l.least);
-    assert_true(l.pairs > 0 && l.flush > 0);
+    assert_true(l.pairs > 0 && (l.flush > 0 || pairs_per_family < 100));
     assert_true(l.max_error <= 1);
-    assert_true((double)l.settled >= LAST_SHARE * (double)l.pairs);
+    assert_true(is_share(l.settled, l.pairs, LAST_SHARE));
 }
 
 /* Bodies in one plane: they meet, and are 0 deep; with radii, these. And the same lifted off. */
@@ -1233,43 +1247,74 @@ static double scale_of_boxes(void)
     return most;
 }
 
+#define SHALLOW 1e-2 /* in scales */
+#define SHALLOW_CALLS 13
+#define DEEP_CALLS 16
+
+/* Overlaps of one kind, and the support calls of each body. */
+typedef struct overlaps {
+    long pairs;
+    double calls;
+} overlaps;
+
+/* Whether they overlap: then it is added to the shallow or to the others. */
+static int ask_about_boxes(figures *s, overlaps all[2], V(result) * r)
+{
+    double error, width;
+    p = &drawn;
+    nearly.lower = nearly.upper = separation_of_boxes();
+    nearly.scale = (quad)scale_of_boxes();
+    ask(NULL, r);
+    s->pairs++;
+    if (nearly.upper > 0) {
+        hold(s, HOLDS, r, (quad)r->upper >= nearly.upper && r->upper > 0, 0);
+        return 0;
+    }
+    overlaps *one = &all[-(double)nearly.upper >= SHALLOW * scale()];
+    one->pairs++;
+    one->calls += r->supports / 2.0;
+    s->deep++;
+    s->known++;
+    s->sum_calls += r->supports / 2.0;
+    s->max_calls = fmax(s->max_calls, r->supports / 2.0);
+    nearly.lower -= nearly.scale * (quad)1e-30;
+    nearly.upper += nearly.scale * (quad)1e-30;
+    error = in_u(off_truth(&nearly, (quad)r->value), scale());
+    width = in_u((quad)width_of(r), scale());
+    s->max_error = fmax(s->max_error, error);
+    s->max_width = fmax(s->max_width, width);
+    hold(s, HOLDS, r, !(missed(r) > 0), in_u(missed(r), scale()));
+    hold(s, NEAR, r, error <= VALUE_ERROR, error);
+    hold(s, NARROW, r, width <= WIDTH, width);
+    return 1;
+}
+
+/* As they are drawn; and those that overlap again, moved out until they hardly do. */
 static void turned_boxes(void **state)
 {
     static figures s;
+    overlaps all[2] = {{0, 0}, {0, 0}};
     s.family = BOXES;
     (void)state;
     for (at = 0; at < boxes; at++) {
         V(result) r;
-        double error, width;
         draws d = draws_from(seed + 2, BOXES, (uint64_t)at);
         draw_pair(&d, BOXES, &drawn);
-        p = &drawn;
-        nearly.lower = nearly.upper = separation_of_boxes();
-        nearly.scale = (quad)scale_of_boxes();
-        ask(NULL, &r);
-        s.pairs++;
-        if (nearly.upper > 0) {
-            hold(&s, HOLDS, &r, (quad)r.upper >= nearly.upper && r.upper > 0, 0);
+        if (!ask_about_boxes(&s, all, &r)) {
             continue;
         }
-        s.deep++;
-        s.known++;
-        s.sum_calls += r.supports / 2.0;
-        s.max_calls = fmax(s.max_calls, r.supports / 2.0);
-        nearly.lower -= nearly.scale * (quad)1e-30;
-        nearly.upper += nearly.scale * (quad)1e-30;
-        error = in_u(off_truth(&nearly, (quad)r.value), scale());
-        width = in_u((quad)width_of(&r), scale());
-        s.max_error = fmax(s.max_error, error);
-        s.max_width = fmax(s.max_width, width);
-        hold(&s, HOLDS, &r, !(missed(&r) > 0), in_u(missed(&r), scale()));
-        hold(&s, NEAR, &r, error <= VALUE_ERROR, error);
-        hold(&s, NARROW, &r, width <= WIDTH, width);
+        push(&r, magnitude(&d, -6, -2) * scale());
+        ask_about_boxes(&s, all, &r);
     }
     print_figures(&s);
     print_faults(&s.faults, "turned boxes");
+    printf("%-6s turned boxes: %ld overlap by less than %.0e of the scale, calls %.2f; %ld by more, calls %.2f\n",
+           VARIANT, all[0].pairs, SHALLOW, mean(all[0].calls, all[0].pairs), all[1].pairs,
+           mean(all[1].calls, all[1].pairs));
     assert_int_equal(s.faults.count, 0);
-    assert_true(s.deep > boxes / 10);
+    assert_true(all[0].pairs > boxes / 10 && all[1].pairs > boxes / 10);
+    assert_true(mean(all[0].calls, all[0].pairs) <= SHALLOW_CALLS);
+    assert_true(mean(all[1].calls, all[1].pairs) <= DEEP_CALLS);
 }
 
 /* ---- all ---- */
