@@ -7,13 +7,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     static question q;
-    input in = input_from(bytes, count);
+    input in;
     V(result) cold, r, d;
     V(cache) cache;
-    int exponent = small_whole(&in);
-    read_question(&q, &in, bytes, count);
-    seek_truth(&q);
-    announce(&q);
+    int exponent = pose_question(&q, &in, bytes, count);
     if (ask_intersect(&q, 0, &cold)) {
         must_scale(&q, INTERSECT, &cold, exponent);
         check_witnesses(&q, &cold);

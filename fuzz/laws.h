@@ -237,6 +237,18 @@ static inline void announce(const question *q)
     }
 }
 
+/* A pair from the bytes, and its truth. Returns the exponent of another size to ask about it in. */
+static inline int pose_question(question *q, input *in, const uint8_t *bytes, size_t count)
+{
+    int exponent;
+    *in = input_from(bytes, count);
+    exponent = small_whole(in);
+    read_question(q, in, bytes, count);
+    seek_truth(q);
+    announce(q);
+    return exponent;
+}
+
 /* x * 2^by */
 static inline quad shifted(quad x, int by)
 {
@@ -610,6 +622,30 @@ static inline void must_meet(const question *q, const char *law, const V(result)
         print_result("other", y);
         broken(q, law, x, 0);
     }
+}
+
+/* Asked the same twice, from the cache of the first; then with what was left behind by other queries, of the pair a
+ * little moved: the answers meet the cold one. */
+static inline void must_meet_warm(question *q, input *in, int (*ask_it)(question *, int, V(result) *),
+                                  const enum query other[2], const V(result) * cold)
+{
+    V(cache) cache;
+    V(result) r;
+    memset(&cache, 0, sizeof cache);
+    q->options.cache = &cache;
+    for (int k = 0; k < 4; k++) {
+        V(pose) *pose = &whole_of(&q->s, k & 1)->pose, was = *pose;
+        if (k > 1) {
+            pose->p[choice(in, DIM)] = number(in);
+            pose->m[choice(in, DIM * DIM)] = number(in);
+            query_of[other[k - 2]](&q->s.p.a.shape, &q->s.p.b.shape, &q->options, &r);
+            *pose = was;
+        }
+        if (ask_it(q, 0, &r)) {
+            must_meet(q, "warm and cold contradict each other", &r, cold);
+        }
+    }
+    q->options.cache = NULL;
 }
 
 /* distance and intersect of one pair: of d and the signed separation s, d = max(s, 0). */

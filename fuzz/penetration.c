@@ -185,40 +185,14 @@ static void check_few_steps(question *q, input *in, const V(result) * usual)
     q->options.max_steps = 0;
 }
 
-/* The same pair, then the pair a little moved, with what other queries left behind. */
-static void check_warm(question *q, input *in, const V(result) * cold)
-{
-    V(cache) cache;
-    V(result) r;
-    memset(&cache, 0, sizeof cache);
-    q->options.cache = &cache;
-    for (int k = 0; k < 4; k++) {
-        V(pose) was = whole_of(&q->s, k & 1)->pose;
-        if (k > 1) {
-            V(pose) *pose = &whole_of(&q->s, k & 1)->pose;
-            pose->p[choice(in, DIM)] = number(in);
-            pose->m[choice(in, DIM * DIM)] = number(in);
-            query_of[k == 2 ? PENETRATION : INTERSECT](&q->s.p.a.shape, &q->s.p.b.shape, &q->options, &r);
-            *pose = was;
-        }
-        if (ask_depth(q, 0, &r)) {
-            must_meet(q, "warm and cold contradict each other", &r, cold);
-        }
-    }
-    q->options.cache = NULL;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
+    static const enum query other[2] = {PENETRATION, INTERSECT};
     static question q;
-    input in = input_from(bytes, count);
+    input in;
     V(result) cold, r;
-    pair_facts f;
-    int exponent = small_whole(&in);
-    read_question(&q, &in, bytes, count);
-    seek_truth(&q);
-    f = learn(&q);
-    announce(&q);
+    int exponent = pose_question(&q, &in, bytes, count);
+    pair_facts f = learn(&q);
     if (!ask_depth(&q, 0, &cold)) {
         return 0;
     }
@@ -239,7 +213,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     }
     check_rooms(&q, &in, &cold);
     check_few_steps(&q, &in, &cold);
-    check_warm(&q, &in, &cold);
+    must_meet_warm(&q, &in, ask_depth, other, &cold);
     q.options.tight = 1;
     if (ask_depth(&q, 0, &r)) {
         must_meet(&q, "tight, another answer", &r, &cold);
