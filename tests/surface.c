@@ -540,6 +540,218 @@ static void thin_ones_go_around_nothing(void **state)
     assert_true(high > 10);
 }
 
+/* Of the facet's corners along its n, without rounding. */
+static quad true_height(const facet *f)
+{
+    quad least = 0, square = 0;
+    for (int k = 0; k < DIM; k++) {
+        const tip *t = &d.p.tip[f->v[k]];
+        quad h = 0;
+        square = 0;
+        for (int i = 0; i < DIM; i++) {
+            h += (quad)f->n.c[i] * ((quad)t->w.c[i] + (quad)t->low.c[i]);
+            square += (quad)f->n.c[i] * (quad)f->n.c[i];
+        }
+        least = k == 0 || h < least ? h : least;
+    }
+    return least / quad_sqrt(square);
+}
+
+/* A floor is below the corners, also where they are off by all the doubt that there is; and no lower than it need be.
+ */
+static void floors_are_below_all_corners(void **state)
+{
+    (void)state;
+    draw_from(0);
+    for (int n = 0; n < 200000; n++) {
+        put_any_facet();
+        facet *f = &d.p.facet[0];
+        for (int k = 0; k < DIM && g.exact; k++) {
+            tip *t = &d.p.tip[k];
+            for (int twice = any_below(3); twice < 2; twice++) {
+                t->w = sub(t->w, mul(f->n, dot(f->n, t->w))); /* in the plane, or nearly so */
+            }
+            t->low = any_vec(UNIT * larger(peak(t->w), UNIT) / 4);
+        }
+        f->height = least_height(&d.p, f, f->n);
+        quad floor = floor_of(&d, f), height = true_height(f) - (g.exact ? 0 : (quad)q.d.doubt);
+        assert_true(floor <= height);
+        assert_true(floor > height - (quad)(g.exact ? 2048 * UNIT * UNIT + 16 * UNIT * size(f->height) : 128 * UNIT));
+    }
+}
+
+#if DIM == 3
+/* Where the numbers are too unlike, nothing is said of the side; nor is it then that the facet holds the origin in. */
+static void a_lost_side_is_no_inner_side(void **state)
+{
+    static const int16_t v[3] = {0, 1, 2};
+    const real large = (real)0x1p1000, small = (real)0x1p-1000;
+    (void)state;
+    begin(MOST, 1);
+    put_simplex_at(axis(0, 0), 1);
+    for (int k = 0; k < 3; k++) {
+        d.p.tip[k].x = add(axis(k, large), axis((k + 1) % 3, small));
+    }
+    put_facet(&d.p, v);
+    assert_int_equal(inner_side(&d, &d.p.facet[d.p.facets - 1]), -1);
+    for (int k = 0; k < 3; k++) {
+        d.p.tip[k].x = axis(k, large);
+    }
+    assert_int_equal(inner_side(&d, &d.p.facet[d.p.facets - 1]), 1);
+}
+#endif
+
+/* ---- sides ---- */
+
+/* Of what is not known to so many digits no side is told. */
+static void rises_are_above_the_noise(void **state)
+{
+    (void)state;
+    begin(MOST, 0);
+    put_tip(axis(0, 1));
+    for (int k = -8; k <= 8; k++) {
+        tip t = tip_at(axis(0, 1 + k * 2 * UNIT)); /* the noise is 4 roundings */
+        real r = rise(&d.p, 0, &t, axis(0, 1));
+        assert_true(r == (size(k * 2 * UNIT) > 5 * UNIT ? k * 2 * UNIT : 0));
+    }
+}
+
+/* To twice the digits, a tip by what rounding took from it too. */
+static tip fine_tip(const quad *at)
+{
+    tip t = tip_at(axis(0, 0));
+    for (int i = 0; i < DIM; i++) {
+        t.w.c[i] = (real)at[i];
+        t.low.c[i] = (real)(at[i] - (quad)t.w.c[i]);
+    }
+    return t;
+}
+
+/* On which side of the facet t is, by a determinant: above 0, the outer. */
+static quad true_side(const facet *f, const tip *t)
+{
+    const tip *from = &d.p.tip[f->v[0]];
+    quad e[DIM][DIM];
+    for (int k = 0; k < DIM; k++) {
+        const tip *to = k < DIM - 1 ? &d.p.tip[f->v[k + 1]] : t;
+        for (int i = 0; i < DIM; i++) {
+            e[k][i] = (quad)to->w.c[i] - (quad)from->w.c[i] + ((quad)to->low.c[i] - (quad)from->low.c[i]);
+        }
+    }
+#if DIM == 2
+    return e[0][1] * e[1][0] - e[0][0] * e[1][1];
+#else
+    quad sum = 0;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        sum += e[2][i] * (e[0][j] * e[1][k] - e[0][k] * e[1][j]);
+    }
+    return sum;
+#endif
+}
+
+/* Of known corners the side is told to nearly twice the digits, and never the wrong one. */
+static void sides_are_told_to_twice_the_digits(void **state)
+{
+    static const int16_t v[3] = {0, 1, 2};
+    int told = 0;
+    (void)state;
+    draw_from(0);
+    for (int n = 0; n < 50000; n++) {
+        quad at[DIM];
+        int down = 20 + any_below(90);
+        begin(MOST, 1);
+        for (int k = 0; k < DIM; k++) {
+            put_tip(any_vec(1));
+        }
+        put_facet(&d.p, v);
+        const facet *f = &d.p.facet[0];
+        real off = (any_below(2) ? 1 : -1) * ldexp(1, -down), share = any_between(-1, 1), other = any_between(-1, 1);
+        for (int i = 0; i < DIM; i++) {
+            quad a = (quad)d.p.tip[0].w.c[i], b = (quad)d.p.tip[1].w.c[i], c = (quad)d.p.tip[DIM - 1].w.c[i];
+            at[i] = a + (b - a) * (quad)share + (c - a) * (quad)other + (quad)f->n.c[i] * (quad)off;
+        }
+        tip t = fine_tip(at);
+        quad side = true_side(f, &t);
+        real said = side_of(&d.p, f, &t);
+        told += said != 0;
+        assert_true(said == 0 || (said > 0) == (side > 0));
+        assert_true(said != 0 || f->thin || quad_abs(side) < (quad)0x1p-92);
+    }
+    printf("%d sides told\n", told);
+}
+
+/* Of whole numbers, where many tips are in one plane: a new facet is never folded back on one that stays, so that all
+ * that has area keeps all tips on its inner side. */
+static void grows_over_flat_faces(void **state)
+{
+    int grown = 0, level = 0;
+    (void)state;
+    for (int n = 0; n < 300; n++) {
+        draw_from(n);
+        begin(24, n & 1);
+        put_simplex_at(axis(0, 0), 1);
+        for (int step = 0; step < 100 && d.p.tips < 24; step++) {
+            tip t = tip_at(axis(0, 0));
+            int seen = 0;
+            for (int i = 0; i < DIM; i++) {
+                t.w.c[i] = (real)(any_below(5) - 2);
+            }
+            while (seen < d.p.facets && !sees(&d.p, &d.p.facet[seen], &t)) {
+                seen++;
+            }
+            if (seen == d.p.facets) {
+                continue;
+            }
+            grown += grow_to(&d.p.facet[seen], &t) == GROWN;
+            for (int k = 0; k < d.p.facets; k++) {
+                for (int v = 0; v < d.p.tips && !d.p.facet[k].thin; v++) {
+                    quad side = true_side(&d.p.facet[k], &d.p.tip[v]);
+                    level += side == 0 && !has_tip(&d.p.facet[k], v);
+                    assert_true(side <= 0);
+                }
+            }
+        }
+    }
+    printf("grown %d times, level %d times\n", grown, level);
+    assert_true(grown > 100 && level > 100);
+}
+
+#if DIM == 3
+/* A facet that is a line has the way to its nearest point for its normal, whichever edge that is on; and is below a tip
+ * where all its corners are. */
+static void lines_face_the_origin(void **state)
+{
+    static const int16_t v[3] = {0, 1, 2};
+    (void)state;
+    draw_from(0);
+    for (int n = 0; n < 5000; n++) {
+        vec at = any_unit(), along = any_unit();
+        real way[3], least, most;
+        begin(MOST, 0);
+        for (int k = 0; k < 3; k++) {
+            way[k] = any_between(-2, 2);
+            put_tip(add(at, mul(along, way[k])));
+        }
+        put_facet(&d.p, v);
+        least = smaller(way[0], smaller(way[1], way[2]));
+        most = larger(way[0], larger(way[1], way[2]));
+        vec near = add(at, mul(along, smaller(larger(-dot(at, along), least), most)));
+        assert_true(d.p.facet[0].thin);
+        assert_true(size(d.p.facet[0].height - length(near)) < (real)1e-12);
+    }
+    begin(MOST, 0);
+    for (int k = 0; k < 3; k++) {
+        put_tip(axis(0, k == 0 ? 1 : 4 - k));
+    }
+    put_facet(&d.p, v);
+    tip beyond = tip_at(axis(0, 4)), between = tip_at(axis(0, (real)1.25)), before = tip_at(axis(0, (real)0.5));
+    assert_true(rise_over(&d.p, &d.p.facet[0], &beyond) == 1);
+    assert_true(rise_over(&d.p, &d.p.facet[0], &between) == 0);
+    assert_true(rise_over(&d.p, &d.p.facet[0], &before) == -(real)0.5);
+}
+#endif
+
 /* ---- dropping ---- */
 
 /* Facets with a tip in common with one below some height, all in all. */
@@ -660,16 +872,22 @@ int main(void)
         cmocka_unit_test(stays_closed),
         cmocka_unit_test(never_gets_lower),
         cmocka_unit_test(no_room_for_tips),
-#if DIM == 3
-        cmocka_unit_test(no_room_for_facets),
-#endif
         cmocka_unit_test(what_is_proven_goes_around),
         cmocka_unit_test(facets_count_for_their_angles),
         cmocka_unit_test(certain_outweighs_doubtful),
         cmocka_unit_test(thin_ones_go_around_nothing),
+        cmocka_unit_test(floors_are_below_all_corners),
+        cmocka_unit_test(rises_are_above_the_noise),
+        cmocka_unit_test(sides_are_told_to_twice_the_digits),
+        cmocka_unit_test(grows_over_flat_faces),
         cmocka_unit_test(what_is_dropped_counts),
         cmocka_unit_test(directions_of_any_size),
-        cmocka_unit_test(rooms)
+        cmocka_unit_test(rooms),
+#if DIM == 3
+        cmocka_unit_test(no_room_for_facets),
+        cmocka_unit_test(a_lost_side_is_no_inner_side),
+        cmocka_unit_test(lines_face_the_origin),
+#endif
     };
     return cmocka_run_group_tests_name("surface", tests, NULL, NULL);
 }
