@@ -430,7 +430,8 @@ static tally count_all(void)
 {
     tally all = d.dropped;
     for (int k = 0; k < d.p.facets; k++) {
-        count_in(&d, &d.p.facet[k], &all);
+        count_height(&d, &d.p.facet[k], &all);
+        count_angle(&d, &d.p.facet[k], &all);
     }
     return all;
 }
@@ -476,7 +477,7 @@ static void put_any_facet(void)
  * 113 bits tell the side. */
 static void facets_count_for_their_angles(void **state)
 {
-    int counted = 0, certain = 0, in_doubt = 0, proven = 0;
+    int counted = 0, certain = 0, in_doubt = 0, proven = 0, clearly = 0;
     (void)state;
     draw_from(0);
     for (int n = 0; n < 200000; n++) {
@@ -484,7 +485,8 @@ static void facets_count_for_their_angles(void **state)
         put_any_facet();
         quad v = volume(&d.p.facet[0]);
         double a = angle(&d.p.facet[0]) * (v > 0 ? 1 - 1e-9 : 1);
-        count_in(&d, &d.p.facet[0], &t);
+        count_height(&d, &d.p.facet[0], &t);
+        count_angle(&d, &d.p.facet[0], &t);
         if (!(t.least > 0) || quad_abs(v) < (quad)0x1p-100) {
             continue;
         }
@@ -493,11 +495,15 @@ static void facets_count_for_their_angles(void **state)
         in_doubt += t.doubtful > 0;
         proven += t.proven;
         assert_true(!(t.certain > 0) || (v > 0 && t.certain <= a));
+        int clear = d.p.facet[0].form == WIDE && d.p.facet[0].height > CLEAR;
+        clearly += clear;
+        assert_true(!clear || v > 0);
         assert_true(t.proven == 0 || (v > 0 && g.exact));
         assert_true(t.certain > 0 || t.proven > 0 || t.doubtful >= fabs(a));
     }
-    printf("%d facets, %d of them certain, %d in doubt, %d proven\n", counted, certain, in_doubt, proven);
-    assert_true(certain > 100 && in_doubt > 10 && proven > 100);
+    printf("%d facets, %d of them certain, %d in doubt, %d proven, %d clear\n", counted, certain, in_doubt, proven,
+           clearly);
+    assert_true(certain > 100 && in_doubt > 10 && proven > 100 && clearly > 100);
 }
 
 /* The certain must outweigh the doubtful; without any of these, one that is proven will do. */
@@ -676,7 +682,7 @@ static void sides_are_told_to_twice_the_digits(void **state)
         real said = side_of(&d.p, f, &t);
         told += said != 0;
         assert_true(said == 0 || (said > 0) == (side > 0));
-        assert_true(said != 0 || f->thin || quad_abs(side) < (quad)0x1p-92);
+        assert_true(said != 0 || f->form == THIN || quad_abs(side) < (quad)0x1p-92);
     }
     printf("%d sides told\n", told);
 }
@@ -705,7 +711,7 @@ static void grows_over_flat_faces(void **state)
             }
             grown += grow_to(&d.p.facet[seen], &t) == GROWN;
             for (int k = 0; k < d.p.facets; k++) {
-                for (int v = 0; v < d.p.tips && !d.p.facet[k].thin; v++) {
+                for (int v = 0; v < d.p.tips && d.p.facet[k].form != THIN; v++) {
                     quad side = true_side(&d.p.facet[k], &d.p.tip[v]);
                     level += side == 0 && !has_tip(&d.p.facet[k], v);
                     assert_true(side <= 0);
@@ -737,7 +743,7 @@ static void lines_face_the_origin(void **state)
         least = smaller(way[0], smaller(way[1], way[2]));
         most = larger(way[0], larger(way[1], way[2]));
         vec near = add(at, mul(along, smaller(larger(-dot(at, along), least), most)));
-        assert_true(d.p.facet[0].thin);
+        assert_true(d.p.facet[0].form == THIN);
         assert_true(size(d.p.facet[0].height - length(near)) < (real)1e-12);
     }
     begin(MOST, 0);
