@@ -586,6 +586,28 @@ static void floors_are_below_all_corners(void **state)
     }
 }
 
+/* What is called close enough is as close as asked, all charges in it. */
+static void close_enough_is_as_asked(void **state)
+{
+    int close = 0;
+    (void)state;
+    draw_from(0);
+    for (int n = 0; n < 100000; n++) {
+        facet f;
+        memset(&f, 0, sizeof f);
+        begin(MOST, 0);
+        f.height = any_between(0, (real)1.5);
+        g.abs_tol = ldexp(any_between(1, 2), -any_below(46));
+        real lower = -f.height - g.abs_tol + any_between(-200, 200) * UNIT;
+        if (close_enough(&d, &f, lower)) {
+            close++;
+            assert_true(-(quad)floor_of(&d, &f) - (quad)lower <= (quad)g.abs_tol);
+        }
+    }
+    printf("%d times close enough\n", close);
+    assert_true(close > 100);
+}
+
 #if DIM == 3
 /* Where the numbers are too unlike, nothing is said of the side; nor is it then that the facet holds the origin in. */
 static void a_lost_side_is_no_inner_side(void **state)
@@ -687,6 +709,34 @@ static void sides_are_told_to_twice_the_digits(void **state)
     printf("%d sides told\n", told);
 }
 
+/* The facet that a simplex has next to a seam goes with it for a t in its plane that is on its side of the seam, where
+ * a new facet would cover it; for one on the other side it stays. */
+static void a_level_facet_goes_where_it_would_be_covered(void **state)
+{
+    (void)state;
+    begin(MOST, 1);
+    put_simplex_at(axis(0, 0), 1);
+    d.p.noise = (real)0x1p-40; /* thirds are rounded */
+    for (int k = 0; k <= DIM; k++) {
+        for (int i = 0; i < DIM; i++) {
+            seam s = seam_of(&d.p, k, i);
+            const facet *f = &d.p.facet[s.next];
+            vec middle = axis(0, 0), on = axis(0, 0);
+            for (int j = 0; j < DIM; j++) {
+                vec w = d.p.tip[f->v[j]].w;
+                middle = add(middle, w);
+                on = has_tip(&d.p.facet[k], f->v[j]) ? add(on, w) : on;
+            }
+            on = mul(on, DIM == 2 ? 1 : (real)0.5); /* of the seam itself */
+            for (int side = -1; side <= 1; side += 2) {
+                vec off = sub(mul(middle, 1 / (real)DIM), on);
+                tip t = tip_at(add(on, mul(off, side)));
+                assert_int_equal(goes_too(&d.p, f, s, &t), side > 0);
+            }
+        }
+    }
+}
+
 /* Of whole numbers, where many tips are in one plane: a new facet is never folded back on one that stays, so that all
  * that has area keeps all tips on its inner side. */
 static void grows_over_flat_faces(void **state)
@@ -721,6 +771,22 @@ static void grows_over_flat_faces(void **state)
     }
     printf("grown %d times, level %d times\n", grown, level);
     assert_true(grown > 100 && level > 100);
+}
+
+/* Of a way that is nearly along the tips, too, what is square to them is square to rounding. */
+static void square_to_tips_to_rounding(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 1000; n++) {
+        draw_from(n);
+        begin(MOST, 0);
+        vec along = any_unit(), beside = any_short(n % 40);
+        put_tip(any_vec(1));
+        put_tip(add(d.p.tip[0].w, along));
+        along = sub(d.p.tip[1].w, d.p.tip[0].w);
+        vec square = square_to_tips(&d.p, add(along, beside));
+        assert_true(size(dot(square, along)) <= 16 * UNIT * length(square));
+    }
 }
 
 #if DIM == 3
@@ -883,9 +949,12 @@ int main(void)
         cmocka_unit_test(certain_outweighs_doubtful),
         cmocka_unit_test(thin_ones_go_around_nothing),
         cmocka_unit_test(floors_are_below_all_corners),
+        cmocka_unit_test(close_enough_is_as_asked),
         cmocka_unit_test(rises_are_above_the_noise),
         cmocka_unit_test(sides_are_told_to_twice_the_digits),
+        cmocka_unit_test(a_level_facet_goes_where_it_would_be_covered),
         cmocka_unit_test(grows_over_flat_faces),
+        cmocka_unit_test(square_to_tips_to_rounding),
         cmocka_unit_test(what_is_dropped_counts),
         cmocka_unit_test(directions_of_any_size),
         cmocka_unit_test(rooms),
