@@ -520,6 +520,20 @@ static void certain_outweighs_doubtful(void **state)
     }
 }
 
+/* Where a facet in doubt was dropped, the angles of the clear ones are measured against it. */
+static void clear_ones_are_measured(void **state)
+{
+    (void)state;
+    draw_from(0);
+    begin(MOST, 1);
+    put_ball(axis(0, 0), 1, 30);
+    assert_true(goes_around(&d));
+    d.dropped.doubtful = (real)0.01;
+    assert_true(goes_around(&d));
+    d.dropped.doubtful = 100;
+    assert_false(goes_around(&d));
+}
+
 /* Needles and specks beside the origin have no facet that is lower than they are far: that does not make them go
  * around it. */
 static void thin_ones_go_around_nothing(void **state)
@@ -947,6 +961,7 @@ int main(void)
         cmocka_unit_test(what_is_proven_goes_around),
         cmocka_unit_test(facets_count_for_their_angles),
         cmocka_unit_test(certain_outweighs_doubtful),
+        cmocka_unit_test(clear_ones_are_measured),
         cmocka_unit_test(thin_ones_go_around_nothing),
         cmocka_unit_test(floors_are_below_all_corners),
         cmocka_unit_test(close_enough_is_as_asked),
