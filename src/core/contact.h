@@ -197,6 +197,13 @@ static void turn_to_normal(depth *d)
     }
 }
 
+/* The bounds as they are now, and whether what is settled is proven. */
+static void prove(depth *d, real *upper)
+{
+    int proven = bound(d, upper);
+    d->settled &= proven || (d->flush && d->q->met);
+}
+
 /* The cores meet, or nearly so: how deep. */
 static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
 {
@@ -210,8 +217,11 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (end == OPEN && d->p.facets > 0) end = deepen(d);
     if (end == FAULT) return end;
     if (d->g->tight && end == STILL) settle_depth(d, &end);
-    int proven = bound(d, upper);
-    d->settled &= proven || (d->flush && d->q->met);
+    prove(d, upper);
+    if (d->g->tight && !d->settled && d->floor && d->q->steps < d->g->max_steps) {
+        settle_anew(d, &end);
+        prove(d, upper);
+    }
     if (d->settled) d->q->normal = d->normal;
     if (!d->floor) return end;
     if (end == OPEN) turn_to_normal(d);

@@ -57,6 +57,7 @@ typedef struct polytope {
     int fine;                                                  /* tips are known to twice the digits */
     int (*side)(const void *of, const facet *f, const tip *t); /* on which side of the facet t is, without rounding */
     const void *of;                                            /* NULL, both: that is not asked */
+    int without_rounding;                                      /* nothing but side tells sides */
 } polytope;
 
 /* A closed surface of triangles has 2 tips - 4, of edges as many as tips; and some more, which are put in before others
@@ -363,6 +364,7 @@ static int is_on_side(const polytope *p, const facet *f, seam s, const tip *t)
  * which count by how far t is from the nearest corner. */
 static real side_of(const polytope *p, const facet *f, const tip *t)
 {
+    if (p->without_rounding) return (real)p->side(p->of, f, t);
     real r = rise_over(p, f, t);
     if (!p->fine || size(r) > CLEAR) return r;
     vec e = reach_over(&p->tip[f->v[nearest_corner(p, f, t)]], t);
@@ -490,7 +492,7 @@ static enum growth grow(polytope *p, facet *f, const tip *t)
     enum growth end = p->rims == 0 ? LOWERED : before + p->rims > p->most_facets ? FULL : GROWN;
     p->tip[p->tips] = *t;
     for (int k = 0; k < p->rims && end == GROWN; k++) least = smaller(put_facet_on(p, p->rim[k], p->tips), least);
-    if (end == GROWN && height > 0 && !(least >= height - 64 * UNIT)) end = LOWERED;
+    if (end == GROWN && !p->without_rounding && height > 0 && !(least >= height - 64 * UNIT)) end = LOWERED;
     if (end != GROWN) {
         p->facets = before;
         for (int k = 0; k < p->facets; k++) p->facet[k].gone = 0;

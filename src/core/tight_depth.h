@@ -106,12 +106,12 @@ static enum end grow_on(depth *d, finish *f, real ends[3])
     for (;;) {
         tip t;
         facet *low = lowest_plane(f, d, ends);
+        d->floor = low ? low : lowest(&d->p);
         if (!low) return FAULT;
-        d->floor = low;
         if (d->q->steps >= d->g->max_steps) return OPEN;
         if (!take_step(f, d, &t)) break;
         if (f->lost || grow(&d->p, low, &t) != GROWN) return FAULT;
-        enum end end = deepen(d);
+        enum end end = d->p.without_rounding ? STILL : deepen(d);
         if (end != STILL) return end;
     }
     return f->lost || f->over.sign < 0 ? FAULT : STILL;
@@ -158,8 +158,24 @@ static enum end span_out(depth *d, finish *f)
     return CLOSE;
 }
 
-/* Settles the depth, where it can be: then d->ends are the bracket of the separation, radii included, if the origin is
- * proven to be in the difference. */
+/* How the growth without rounding ended: settled, if it came to its end; then d->ends are the bracket of the
+ * separation, radii included, if the origin is proven to be in the difference. */
+static void settle_on(depth *d, finish *f, enum end grown, enum end *end)
+{
+    d->settled = grown == STILL;
+    if (grown != FAULT) *end = grown;
+    if (d->settled && d->p.facets == 0) {
+        f->over = nought(0);
+        f->under = dyadic_of(1);
+        d->settled = enclose_depth(f, d, d->ends);
+    }
+    if (!d->settled) return;
+    d->flush = f->over.sign == 0;
+    d->normal = rough(&f->way);
+    d->normal = mul(d->normal, 1 / length(d->normal));
+}
+
+/* Settles the depth from the polytope as it is. */
 static APART void settle_depth(depth *d, enum end *end)
 {
     finish f;
@@ -167,17 +183,24 @@ static APART void settle_depth(depth *d, enum end *end)
     if (d->p.facets == 0) grown = span_out(d, &f);
     if (grown == CLOSE) grown = deepen(d);
     if (grown == STILL && d->p.facets > 0) grown = grow_on(d, &f, d->ends);
-    d->settled = grown == STILL;
-    if (grown != FAULT) *end = grown;
-    if (d->settled && d->p.facets == 0) {
-        f.over = nought(0);
-        f.under = dyadic_of(1);
-        d->settled = enclose_depth(&f, d, d->ends);
-    }
-    if (!d->settled) return;
-    d->flush = f.over.sign == 0;
-    d->normal = rough(&f.way);
-    d->normal = mul(d->normal, 1 / length(d->normal));
+    settle_on(d, &f, grown, end);
+}
+
+/* The same from a corner on, where rounding has spoiled the polytope or filled the workspace with what it left:
+ * another, of which no side is told by rounded numbers. */
+static APART void settle_anew(depth *d, enum end *end)
+{
+    finish f;
+    polytope *p = &d->p;
+    p->tip[0] = p->tip[d->floor->v[0]];
+    p->tips = 1;
+    p->facets = 0;
+    p->without_rounding = 1;
+    d->dropped = (tally){.least = REAL_MAX};
+    d->floor = NULL;
+    enum end grown = span_out(d, &f);
+    if (grown == CLOSE) grown = grow_on(d, &f, d->ends);
+    settle_on(d, &f, grown, end);
 }
 
 #endif
