@@ -565,7 +565,7 @@ static void few_steps(void **state)
 }
 
 /* Cutoffs and tolerances are as for distance: what was asked for is kept, or the status says otherwise. */
-static void ask_for_less(here *h)
+static void ask_with_tolerances(here *h)
 {
     static const double asked[] = {1e-1, 1e-2, 1e-4};
     for (int k = 0; k < 6; k++) {
@@ -583,6 +583,19 @@ static void ask_for_less(here *h)
         expect_answer("wider than asked, and the status does not say so", &r,
                       !is_normal() || width_of(&r) <= enough * (1 + 8 * U) + LEAST || r.status != GJK_OK ||
                           in_u((quad)width_of(&r), span()) <= 100);
+    }
+}
+
+/* As they are drawn; and of known corners so moved that they hardly meet. */
+static void ask_for_less(here *h)
+{
+    V(result) r;
+    ask_with_tolerances(h);
+    if (known && is_normal()) {
+        ask(NULL, &r);
+        push(&r, 1e-8 * scale());
+        find_truth_of_pair();
+        ask_with_tolerances(h);
     }
 }
 
