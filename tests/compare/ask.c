@@ -18,14 +18,17 @@
 static int load_module(peer_list *list, const char *path)
 {
     peers_fn *peers;
+    const peer *all;
+    int count = 0;
     void *symbol, *module = *path ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
     if (!module || !(symbol = dlsym(module, PEERS_FN))) {
         fprintf(stderr, "%s\n", *path ? dlerror() : "not built");
         return 0;
     }
     memcpy(&peers, &symbol, sizeof peers); /* C has no cast from object to function */
-    for (const peer *const *p = peers(); *p && list->count < MOST_PEERS; p++) {
-        list->all[list->count++] = *p;
+    all = peers(&count);
+    for (int k = 0; k < count && list->count < MOST_PEERS; k++) {
+        list->all[list->count++] = &all[k];
     }
     return 1;
 }
@@ -36,7 +39,7 @@ int load_peers(peer_list *list, int count, char **arguments)
     int needed = 0;
     for (int k = 0; k < count; k++) {
         char *path = strchr(arguments[k], '=');
-        if (!path || list->missing_count == MOST_PEERS) {
+        if (!path || list->missing_count == MOST_MODULES) {
             return -1;
         }
         *path++ = 0;
@@ -49,15 +52,43 @@ int load_peers(peer_list *list, int count, char **arguments)
     return needed;
 }
 
+void keep_usual(peer_list *list)
+{
+    int kept = 0;
+    for (int k = 0; k < list->count; k++) {
+        if (list->all[k]->usual && list->all[k]->memory == 0) {
+            list->all[kept++] = list->all[k];
+        }
+    }
+    list->count = kept;
+}
+
+static int first_of_library(const peer_list *list, int k)
+{
+    const peer *p = list->all[k];
+    for (int i = 0; i < k; i++) {
+        if (strcmp(list->all[i]->library, p->library) == 0 && list->all[i]->dim == p->dim) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 void print_peers(const peer_list *list)
 {
+    const char *comma = "";
     printf("\"peers\": [");
     for (int k = 0; k < list->count; k++) {
         const peer *p = list->all[k];
-        printf("%s{\"name\": \"%s\", \"version\": \"%s\", \"how\": \"%s\", \"how_deep\": \"%s\", \"dim\": %d, "
-               "\"single\": %d, \"distances\": %d, \"asked\": [%d, %d]}",
-               k ? ", " : "", p->name, p->version, p->how, p->how_deep, p->dim, p->single, p->distances,
-               p->query != NULL, p->penetration != NULL);
+        if (first_of_library(list, k)) {
+            const char *how = p->how[p->query[DISTANCE] ? DISTANCE : INTERSECT];
+            printf("%s{\"name\": \"%s\", \"version\": \"%s\", \"how\": \"%s\", \"how_meet\": \"%s\", \"how_deep\": "
+                   "\"%s\", \"dim\": %d, \"single\": %d, \"distances\": %d, \"asked\": [%d, %d]}",
+                   comma, p->library, p->version, how, p->how[INTERSECT], p->how[PENETRATION], p->dim, p->single,
+                   p->query[DISTANCE] != NULL, p->query[DISTANCE] || p->query[INTERSECT],
+                   p->query[PENETRATION] != NULL);
+            comma = ", ";
+        }
     }
     printf("], \"missing\": [");
     for (int k = 0; k < list->missing_count; k++) {
@@ -66,7 +97,7 @@ void print_peers(const peer_list *list)
     printf("]");
 }
 
-static void *shared(size_t size)
+void *shared_space(size_t size)
 {
     void *space = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (space == MAP_FAILED) {
@@ -76,59 +107,94 @@ static void *shared(size_t size)
     return space;
 }
 
-reply *reply_space(int count) { return shared((size_t)count * sizeof(reply)); }
-
-peer_query *query_of(const peer *p, enum question question) { return question == HOW_FAR ? p->query : p->penetration; }
+void give_back(void *space, size_t size) { munmap(space, size); }
 
 static int takes(const peer *p, const peer_set *s)
 {
-    if (s->core != PEER_POINTS || s->posed) {
-        return p->cores;
+    if ((s->posed && !p->poses) || !(p->cores >> s->core & 1)) {
+        return 0;
     }
-    return s->count > 0 && (p->most_points == 0 || s->count <= p->most_points) && (p->radii || s->radius == 0);
+    return s->core != PEER_POINTS ||
+           (s->count > 0 && (p->most_points == 0 || s->count <= p->most_points) && (p->radii || s->radius == 0));
 }
 
-int takes_pair(const peer *p, const fed *pair) { return takes(p, &pair->a) && takes(p, &pair->b); }
-
-static int is_number(const peer *p, enum question question, const peer_answer *x)
+int takes_pair(const peer *p, const fed *pair)
 {
-    return question == HOW_FAR ? !p->distances || isfinite(x->distance) : !x->meet || isfinite(x->depth);
+    return p->dim == pair->dim && takes(p, &pair->a) && takes(p, &pair->b);
 }
 
-static void ask_one(const peer *p, enum question question, const fed *pair, reply *r)
+static int is_number(enum question question, const peer_answer *x)
 {
-    void *a = p->make(&pair->a), *b = p->make(&pair->b);
-    int failed = !a || !b || query_of(p, question)(a, b, &r->answer) != 0;
-    r->outcome = failed || !is_number(p, question, &r->answer) ? GAVE_UP : ANSWERED;
-    if (a) {
-        p->discard(a);
+    return question == INTERSECT  ? 1
+           : question == DISTANCE ? isfinite(x->distance) != 0
+                                  : x->meet != 1 || isfinite(x->depth);
+}
+
+void *make_body(const peer *p, const peer_set *set, const void *first)
+{
+    return first && p->again ? p->again(first, set) : p->make(set);
+}
+
+typedef struct couple {
+    void *a, *b;
+} couple;
+
+static couple make_couple(const peer *p, const fed *pair, const couple *first)
+{
+    couple made = {make_body(p, &pair->a, first->a), make_body(p, &pair->b, first->b)};
+    return made;
+}
+
+static void discard_couple(const peer *p, const couple *made)
+{
+    if (made->a) {
+        p->discard(made->a);
     }
-    if (b) {
-        p->discard(b);
+    if (made->b) {
+        p->discard(made->b);
     }
+}
+
+static void ask_one(const peer *p, enum question question, const couple *c, void *memory, reply *r)
+{
+    int failed = !c->a || !c->b || p->query[question](p, c->a, c->b, memory, &r->answer) != 0;
+    r->outcome = failed || !is_number(question, &r->answer) ? GAVE_UP : ANSWERED;
 }
 
 /* In the child, from *at on. What it dies of, if it does, is told by the signal. */
-static void ask_the_rest(const peer *p, enum question question, const fed *pairs, int count, reply *replies,
+static void ask_the_rest(const peer *p, enum question question, const fed *pairs, int count, int track, reply *replies,
                          volatile int *at)
 {
     struct itimerval limit = {{0, 0}, {0, (int)(TIME_LIMIT * 1e6)}};
     int nowhere = open("/dev/null", O_WRONLY);
+    void *memory = p->memory ? calloc(1, p->memory) : NULL;
+    const couple none = {NULL, NULL};
+    couple first = none; /* of the track */
     dup2(nowhere, 1);
     dup2(nowhere, 2);
     for (; *at < count; ++*at) {
+        if (track == 0 || *at % track == 0) {
+            discard_couple(p, &first);
+            first = track ? make_couple(p, &pairs[*at], &none) : none;
+            if (memory) {
+                memset(memory, 0, p->memory);
+            }
+        }
         if (takes_pair(p, &pairs[*at])) {
+            couple here;
             setitimer(ITIMER_VIRTUAL, &limit, NULL);
-            ask_one(p, question, &pairs[*at], &replies[*at]);
+            here = make_couple(p, &pairs[*at], &first);
+            ask_one(p, question, &here, memory, &replies[*at]);
+            discard_couple(p, &here);
         }
     }
     _exit(0);
 }
 
-void ask_peer(const peer *p, enum question question, const fed *pairs, int count, reply *replies)
+void ask_peer(const peer *p, enum question question, const fed *pairs, int count, int track, reply *replies)
 {
     static volatile int *at;
-    at = at ? at : shared(sizeof *at);
+    at = at ? at : shared_space(sizeof *at);
     memset(replies, 0, (size_t)count * sizeof *replies);
     for (*at = 0; *at < count; ++*at) {
         int status = 0;
@@ -136,7 +202,7 @@ void ask_peer(const peer *p, enum question question, const fed *pairs, int count
         fflush(NULL);
         child = fork();
         if (child == 0) {
-            ask_the_rest(p, question, pairs, count, replies, at);
+            ask_the_rest(p, question, pairs, count, track, replies, at);
         }
         while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
         }

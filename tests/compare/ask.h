@@ -7,15 +7,14 @@
 #include <stddef.h>
 #include "fed.h"
 
-#define MOST_PEERS 16
+#define MOST_PEERS 160
+#define MOST_MODULES 16
 
 typedef struct peer_list {
     const peer *all[MOST_PEERS];
-    const char *missing[MOST_PEERS];
+    const char *missing[MOST_MODULES];
     int count, missing_count;
 } peer_list;
-
-enum question { HOW_FAR, HOW_DEEP };
 
 enum outcome {
     NOT_ASKED, /* too many points, a radius, another core, or out of the range of its numbers */
@@ -35,16 +34,21 @@ typedef struct reply {
 /* Loads the peers of NAME=MODULE each; where that cannot be done, says so and notes the name as missing. Returns how
  * many are missing that GJK_COMPARE_NEEDS names in the environment, -1: bad arguments. */
 int load_peers(peer_list *list, int count, char **arguments);
+/* Only those that are set as their documentation has it, and start cold. */
+void keep_usual(peer_list *list);
 /* As two members of a JSON object. */
 void print_peers(const peer_list *list);
 
-/* The function that answers; NULL: it has none. */
-peer_query *query_of(const peer *p, enum question question);
 int takes_pair(const peer *p, const fed *pair);
 
-/* The replies come back in shared memory that lives to the end of the process. */
-reply *reply_space(int count);
+/* Memory that children share, zeros at first. */
+void *shared_space(size_t size);
+void give_back(void *space, size_t size);
 
-void ask_peer(const peer *p, enum question question, const fed *pairs, int count, reply *replies);
+/* The body of a set, which along a track is that of the first under another pose; first NULL: it is the first. */
+void *make_body(const peer *p, const peer_set *set, const void *first);
+
+/* replies in shared memory. Those of a track, so many pairs one after another, share what the peer keeps in mind. */
+void ask_peer(const peer *p, enum question question, const fed *pairs, int count, int track, reply *replies);
 
 #endif

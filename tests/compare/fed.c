@@ -5,7 +5,7 @@
 
 static void set_core(body *b, const peer_set *set)
 {
-    static const enum kind kinds[] = {CLOUD, BOX, SEGMENT, CYLINDER, ELLIPSOID, ORIGIN};
+    static const enum kind kinds[] = {CLOUD, BOX, SEGMENT, CYLINDER, CONE, ELLIPSOID, ORIGIN};
     start_body(b, kinds[set->core]);
     switch (b->kind) {
     case CLOUD:
@@ -17,6 +17,7 @@ static void set_core(body *b, const peer_set *set)
         memcpy(b->v, set->v, 2 * sizeof b->v[0]);
         return;
     case CYLINDER:
+    case CONE:
         b->radius = set->size[0];
         b->half_length = set->size[1];
         return;
@@ -37,7 +38,7 @@ static void body_of_set(body *b, const peer_set *set)
 }
 
 /* Of corners to the last bit, where they meet as where they are apart. */
-void find_fed_truth(fed *f)
+static void find(fed *f)
 {
     static body a, b;
     static truth t;
@@ -58,7 +59,7 @@ void find_fed_truth(fed *f)
     f->scale = t.scale;
 }
 
-int find_fed_separation(const fed *f, const double *normal, quad *separation)
+static int find_separation(const fed *f, const double *normal, quad *separation)
 {
     static body a, b;
     quad n[DIM];
@@ -74,7 +75,7 @@ int find_fed_separation(const fed *f, const double *normal, quad *separation)
     return 1;
 }
 
-void print_fed_case(FILE *out, const fed *f, const char *query)
+static void print(FILE *out, const fed *f, const char *query)
 {
     static body a, b;
     body_of_set(&a, &f->a);
@@ -85,3 +86,7 @@ void print_fed_case(FILE *out, const fed *f, const char *query)
     print_body(out, &b);
     fprintf(out, "}");
 }
+
+#define SPACE_(dim) fed_in_##dim
+#define SPACE(dim) SPACE_(dim)
+const fed_space SPACE(VARIANT_DIM) = {find, find_separation, print};

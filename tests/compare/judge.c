@@ -2,28 +2,61 @@
 #include "judge.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
-#define ROUNDING 4.0 /* in u * scale */
+#define ROUNDING 4.0 /* in u * scale: what it may do to an answer */
+#define TELLS 300.0  /* likewise: so far from contact, whether they meet is to be told */
 
-static const char *const failure_name[DEPTH_FAILURES] = {"sound", "gave_up", "crashed", "hung", "missed", "no_normal"};
+static const char *const failure_names[FAILURES] = {"sound",  "gave_up",   "crashed",  "hung",
+                                                    "missed", "no_normal", "undecided"};
+static const char *const question_name[QUESTIONS] = {"distance", "intersect", "penetration"};
 
-/* What rounding one coordinate can do. */
+/* What rounding can do. */
 static quad rounding_of(const fed *f, int single)
 {
-    return single ? f->scale * (quad)(FLT_EPSILON / 2) + (quad)FLT_MIN
-                  : f->scale * (quad)(DBL_EPSILON / 2) + (quad)DBL_MIN;
+    return (quad)ROUNDING * (single ? f->scale * (quad)(FLT_EPSILON / 2) + (quad)FLT_MIN
+                                    : f->scale * (quad)(DBL_EPSILON / 2) + (quad)DBL_MIN);
 }
 
-int is_deep(const fed *f, int single) { return -f->upper > (quad)ROUNDING * rounding_of(f, single); }
+static quad positive(quad x) { return x > 0 ? x : 0; }
+static quad larger(quad x, quad y) { return x > y ? x : y; }
 
-void start_depth_tally(depth_tally *s)
+const char *failure_name(enum failure failure) { return failure_names[failure]; }
+
+void start_score(score *s, enum question question)
 {
     memset(s, 0, sizeof *s);
+    s->question = question;
     s->example = -1;
 }
 
-static enum failure failure_of(const peer *p, const fed *f, const reply *r)
+/* Where the truth lies of what brackets hold: the distance, else the signed separation. */
+static void truth_of(enum question question, const fed *f, quad *low, quad *high)
+{
+    *low = question == DISTANCE ? positive(f->lower) : f->lower;
+    *high = question == DISTANCE ? positive(f->upper) : f->upper;
+}
+
+/* What the answer itself leaves open: the width of its bracket, or what its setting lets it be off by. */
+static quad allowed(const peer *p, const reply *r)
+{
+    return p->proves ? (quad)r->answer.upper - (quad)r->answer.lower : (quad)p->tolerance;
+}
+
+static int misses(const peer *p, const fed *f, const reply *r)
+{
+    quad open = p->proves ? allowed(p, r) : 0;
+    return -f->upper > larger(rounding_of(f, p->single), open) && !(r->answer.meet == 1 && r->answer.depth > 0);
+}
+
+static int is_undecided(const peer *p, const fed *f, const reply *r)
+{
+    quad far = (quad)(TELLS / ROUNDING) * rounding_of(f, p->single);
+    return r->answer.meet < 0 && (f->lower > far || -f->upper > far);
+}
+
+static enum failure failure_of(enum question question, const peer *p, const fed *f, const reply *r)
 {
     switch (r->outcome) {
     case GAVE_UP:
@@ -33,39 +66,88 @@ static enum failure failure_of(const peer *p, const fed *f, const reply *r)
     case HUNG:
         return HANGS;
     default:
-        return is_deep(f, p->single) && !(r->answer.meet && r->answer.depth > 0) ? MISSES : SOUND;
+        return question == PENETRATION && misses(p, f, r)       ? MISSES
+               : question == INTERSECT && is_undecided(p, f, r) ? UNDECIDED
+                                                                : SOUND;
     }
 }
 
-static judgement judged(const peer *p, const fed *f, const reply *r)
+static int is_wrong_verdict(const peer *p, const fed *f, const reply *r)
 {
-    judgement j = {SOUND, 0, 0, 0, 0};
-    quad error, along;
-    int deep = is_deep(f, p->single);
-    j.failure = failure_of(p, f, r);
+    quad near = larger(rounding_of(f, p->single), (quad)p->tolerance);
+    return r->answer.meet == 1 ? f->lower > near : r->answer.meet == 0 && -f->upper > near;
+}
+
+/* Of bodies that are apart the depth is 0. */
+static void judge_length(judgement *j, enum question question, const peer *p, const fed *f, const reply *r)
+{
+    const peer_answer *x = &r->answer;
+    quad low, high, error, size, rounding = rounding_of(f, p->single);
+    quad said = question == DISTANCE ? (x->meet ? 0 : (quad)x->distance) : (x->meet ? -(quad)x->depth : 0);
+    truth_of(question, f, &low, &high);
+    if (question == PENETRATION) {
+        low = -positive(-low);
+        high = -positive(-high);
+    }
+    error = off(said, low, high);
+    size = larger(low, -high);
+    j->error = (double)(error / f->scale);
+    j->relative = (double)(error / (size > rounding ? size : f->scale));
+    j->wrong = j->relative > WRONG && error > rounding && error > allowed(p, r);
+}
+
+static void judge_normal(judgement *j, const fed *f, const reply *r)
+{
+    quad along;
+    if (!find_fed_separation(f, r->answer.normal, &along)) {
+        j->failure = NO_NORMAL;
+    } else if (along < f->lower) {
+        j->excess = (double)((f->lower - along) / f->scale);
+    }
+}
+
+/* Whether the truth lies outside the bracket. */
+static int is_false(enum question question, const fed *f, const reply *r)
+{
+    quad low, high;
+    truth_of(question, f, &low, &high);
+    return (quad)r->answer.lower > high || (quad)r->answer.upper < low;
+}
+
+static judgement judged(enum question question, const peer *p, const fed *f, const reply *r)
+{
+    judgement j;
+    memset(&j, 0, sizeof j);
+    j.failure = failure_of(question, p, f, r);
     if (j.failure != SOUND || !(f->scale > 0)) {
         return j;
     }
-    error = off(r->answer.meet ? (quad)r->answer.depth : 0, -f->upper, -f->lower);
-    j.error = (double)(error / f->scale);
-    j.relative = deep ? (double)(error / -f->upper) : 0;
-    j.wrong = j.relative > WRONG && error > (quad)ROUNDING * rounding_of(f, p->single);
-    if (deep && !find_fed_separation(f, r->answer.normal, &along)) {
-        j.failure = NO_NORMAL;
-    } else if (deep && along < f->lower) {
-        j.excess = (double)((f->lower - along) / f->scale);
+    if (question == INTERSECT) {
+        j.wrong = is_wrong_verdict(p, f, r);
+    } else {
+        judge_length(&j, question, p, f, r);
+    }
+    if (p->proves) {
+        j.promised = (double)(allowed(p, r) / f->scale);
+        j.wrong |= is_false(question, f, r);
+    }
+    if (question == PENETRATION && -f->upper > rounding_of(f, p->single)) {
+        judge_normal(&j, f, r);
     }
     return j;
 }
 
 static int is_worse(const judgement *x, const judgement *y)
 {
-    return x->failure != SOUND || y->failure != SOUND ? y->failure == SOUND : x->error > y->error;
+    if (x->failure != SOUND || y->failure != SOUND) {
+        return y->failure == SOUND;
+    }
+    return x->wrong != y->wrong ? x->wrong : x->error > y->error;
 }
 
-judgement judge_depth(depth_tally *s, const peer *p, const fed *f, const reply *r, long index)
+judgement judge_answer(score *s, const peer *p, const fed *f, const reply *r, long index)
 {
-    judgement j = judged(p, f, r);
+    judgement j = judged(s->question, p, f, r);
     s->asked++;
     s->failed[j.failure]++;
     if (j.failure == SOUND) {
@@ -73,12 +155,22 @@ judgement judge_depth(depth_tally *s, const peer *p, const fed *f, const reply *
         s->error = fmax(s->error, j.error);
         s->relative = fmax(s->relative, j.relative);
         s->excess = fmax(s->excess, j.excess);
+        s->promised = fmax(s->promised, j.promised);
     }
     if (s->example < 0 || is_worse(&j, &s->worst)) {
         s->example = index;
         s->worst = j;
     }
     return j;
+}
+
+long failures_of(const score *s)
+{
+    long sum = 0;
+    for (int k = SAYS_NOTHING; k < FAILURES; k++) {
+        sum += s->failed[k];
+    }
+    return sum;
 }
 
 void print_number(const char *key, double x)
@@ -90,24 +182,25 @@ void print_number(const char *key, double x)
     }
 }
 
-static void print_example(const depth_tally *s, const fed *f, const reply *r)
+static void print_example(const score *s, const fed *f, const reply *r)
 {
     printf(", \"example\": {\"index\": %ld, \"failure\": \"%s\", \"meet\": %d", s->example,
-           failure_name[s->worst.failure], r->answer.meet);
-    print_number("depth", r->answer.depth);
+           failure_names[s->worst.failure], r->answer.meet);
+    print_number(s->question == DISTANCE ? "distance" : "depth",
+                 s->question == DISTANCE ? r->answer.distance : r->answer.depth);
     print_number("lower", (double)f->lower);
     print_number("upper", (double)f->upper);
     print_number("error", s->worst.error);
     printf(", \"case\": ");
-    print_fed_case(stdout, f, "penetration");
+    print_fed_case(stdout, f, question_name[s->question]);
     printf("}");
 }
 
-void print_depth_tally(const depth_tally *s, const fed *pairs, const reply *replies)
+void print_score(const score *s, const fed *pairs, const reply *replies)
 {
     printf(", \"asked\": %ld, \"wrong\": %ld", s->asked, s->wrong);
-    for (int k = SAYS_NOTHING; k < DEPTH_FAILURES; k++) {
-        printf(", \"%s\": %ld", failure_name[k], s->failed[k]);
+    for (int k = SAYS_NOTHING; k < FAILURES; k++) {
+        printf(", \"%s\": %ld", failure_names[k], s->failed[k]);
     }
     print_number("error", s->error);
     print_number("relative", s->relative);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Answers to how deep two bodies overlap, held against the truth about what was fed. */
+/* Answers about two bodies, held against the truth about what was fed. */
 #ifndef JUDGE_H
 #define JUDGE_H
 
@@ -12,7 +12,8 @@ enum failure {
     HANGS,
     MISSES,    /* no overlap, or none deeper than 0, where it is deeper than rounding */
     NO_NORMAL, /* there, and no unit vector to go along */
-    DEPTH_FAILURES
+    UNDECIDED, /* whether they meet, though far from contact */
+    FAILURES
 };
 
 #define WRONG 0.01
@@ -20,19 +21,22 @@ enum failure {
 /* Of one answer; lengths in scales of the pair. */
 typedef struct judgement {
     enum failure failure;
-    double error;    /* of the depth; where a touch was not seen, all of it */
-    double relative; /* the same as a part of the depth, of pairs that overlap by more than rounding */
-    int wrong;       /* that is more than WRONG, and more than rounding */
+    double error;    /* of the distance or depth; where a touch was not seen, all of it */
+    double relative; /* the same as a part of the truth, where that is more than rounding, else of the scale */
+    int wrong;       /* that is more than WRONG, and more than rounding, and than the peer allows itself; a verdict
+                        likewise; a bracket without the truth in it */
     double excess;   /* what b must be moved along the normal beyond the depth */
+    double promised; /* the width of the bracket */
 } judgement;
 
-typedef struct depth_tally {
-    long asked, failed[DEPTH_FAILURES];
-    long wrong;                     /* of those that did not fail */
-    double error, relative, excess; /* the largest of those */
-    long example;                   /* the first failure, else the largest error; -1: none */
-    judgement worst;                /* of it */
-} depth_tally;
+typedef struct score {
+    enum question question;
+    long asked, failed[FAILURES];
+    long wrong;                               /* of those that did not fail */
+    double error, relative, excess, promised; /* the largest of those */
+    long example;                             /* the first failure, else the largest error; -1: none */
+    judgement worst;                          /* of it */
+} score;
 
 /* How far a value is off a bracket. */
 static inline quad off(quad value, quad low, quad high)
@@ -40,13 +44,13 @@ static inline quad off(quad value, quad low, quad high)
     return value > high ? value - high : value < low ? low - value : 0;
 }
 
-/* Whether it overlaps by more than rounding its coordinates can do. */
-int is_deep(const fed *f, int single);
-void start_depth_tally(depth_tally *s);
+void start_score(score *s, enum question question);
 /* Not of replies that were not asked for. */
-judgement judge_depth(depth_tally *s, const peer *p, const fed *f, const reply *r, long index);
+judgement judge_answer(score *s, const peer *p, const fed *f, const reply *r, long index);
+long failures_of(const score *s);
+const char *failure_name(enum failure failure);
 /* As members of a JSON object, each after a comma. */
-void print_depth_tally(const depth_tally *s, const fed *pairs, const reply *replies);
+void print_score(const score *s, const fed *pairs, const reply *replies);
 void print_number(const char *key, double x);
 
 #endif

@@ -11,33 +11,55 @@
 namespace
 {
 
+struct body {
+    btConvexHullShape hull;
+    btTransform pose;
+};
+
+void add_point(btConvexHullShape *hull, double x, double y, double z)
+{
+    hull->addPoint(btVector3(btScalar(x), btScalar(y), btScalar(z)), false);
+}
+
+/* A box is the hull of its corners: the margin of its own box shape would have to be taken off. */
 void *make(const peer_set *set)
 {
-    btConvexHullShape *hull = new btConvexHullShape;
+    body *made = new body;
+    const double *size = set->size, *m = set->m, *p = set->p;
     for (int k = 0; k < set->count; k++) {
-        const double *x = set->v + 3 * k;
-        hull->addPoint(btVector3(btScalar(x[0]), btScalar(x[1]), btScalar(x[2])), false);
+        add_point(&made->hull, set->v[3 * k], set->v[3 * k + 1], set->v[3 * k + 2]);
     }
-    hull->setMargin(btScalar(set->radius));
-    hull->recalcLocalAabb();
-    return hull;
+    for (int k = 0; k < 8 && set->core == PEER_BOX; k++) {
+        add_point(&made->hull, k & 1 ? size[0] : -size[0], k & 2 ? size[1] : -size[1], k & 4 ? size[2] : -size[2]);
+    }
+    if (set->core == PEER_ORIGIN) {
+        add_point(&made->hull, 0, 0, 0);
+    }
+    made->hull.setMargin(btScalar(set->radius));
+    made->hull.recalcLocalAabb();
+    made->pose.setIdentity();
+    if (set->posed) {
+        made->pose.setBasis(btMatrix3x3(btScalar(m[0]), btScalar(m[1]), btScalar(m[2]), btScalar(m[3]), btScalar(m[4]),
+                                        btScalar(m[5]), btScalar(m[6]), btScalar(m[7]), btScalar(m[8])));
+        made->pose.setOrigin(btVector3(btScalar(p[0]), btScalar(p[1]), btScalar(p[2])));
+    }
+    return made;
 }
 
 int ask(const void *a, const void *b, btPointCollector *answer)
 {
-    const btConvexHullShape *hull_a = static_cast<const btConvexHullShape *>(a);
-    const btConvexHullShape *hull_b = static_cast<const btConvexHullShape *>(b);
+    const body *x = static_cast<const body *>(a), *y = static_cast<const body *>(b);
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
-    btGjkPairDetector detector(hull_a, hull_b, &simplex, &depth);
+    btGjkPairDetector detector(&x->hull, &y->hull, &simplex, &depth);
     btGjkPairDetector::ClosestPointInput in;
-    in.m_transformA.setIdentity();
-    in.m_transformB.setIdentity();
+    in.m_transformA = x->pose;
+    in.m_transformB = y->pose;
     detector.getClosestPoints(in, *answer, nullptr);
     return !answer->m_hasResult;
 }
 
-int query(const void *a, const void *b, peer_answer *out)
+int distance(const peer *, const void *a, const void *b, void *, peer_answer *out)
 {
     btPointCollector answer;
     if (ask(a, b, &answer)) {
@@ -49,7 +71,7 @@ int query(const void *a, const void *b, peer_answer *out)
 }
 
 /* Its normal points from b to a. */
-int penetration(const void *a, const void *b, peer_answer *out)
+int penetration(const peer *, const void *a, const void *b, void *, peer_answer *out)
 {
     btPointCollector answer;
     if (ask(a, b, &answer)) {
@@ -63,13 +85,32 @@ int penetration(const void *a, const void *b, peer_answer *out)
     return 0;
 }
 
-void discard(void *made) { delete static_cast<btConvexHullShape *>(made); }
+void discard(void *made) { delete static_cast<body *>(made); }
 
-#define HOW "btGjkPairDetector with EPA, margins = radii"
-const peer bullet = {"Bullet", PEER_VERSION, HOW,     HOW,   3,          sizeof(btScalar) == sizeof(float), 0, 1, 0,
-                     1,        make,         discard, query, penetration};
-const peer *const all[] = {&bullet, nullptr};
+peer setting()
+{
+    peer p = peer();
+    p.library = "Bullet";
+    p.knob = "none";
+    p.usual = 1;
+    p.version = PEER_VERSION;
+    p.how[DISTANCE] = p.how[INTERSECT] = p.how[PENETRATION] = "btGjkPairDetector with EPA, margins = radii";
+    p.dim = 3;
+    p.single = sizeof(btScalar) == sizeof(float);
+    p.cores = CORE(POINTS) | CORE(BOX) | CORE(SEGMENT) | CORE(ORIGIN);
+    p.poses = p.radii = 1;
+    p.make = make;
+    p.discard = discard;
+    p.query[DISTANCE] = p.query[INTERSECT] = distance;
+    p.query[PENETRATION] = penetration;
+    return p;
+}
 
 } // namespace
 
-const peer *const *gjk_peers() { return all; }
+const peer *gjk_peers(int *count)
+{
+    static const peer bullet = setting();
+    *count = 1;
+    return &bullet;
+}

@@ -39,6 +39,20 @@ static void farthest_of_cylinder(const peer_set *s, const double *dir, double *o
     out[2] = dir[2] < 0 ? -s->size[1] : s->size[1];
 }
 
+/* The apex or the rim below. */
+static void farthest_of_cone(const peer_set *s, const double *dir, double *out)
+{
+    double length = sqrt(dir[0] * dir[0] + dir[1] * dir[1]), by = length > 0 ? s->size[0] / length : 0;
+    if (2 * s->size[1] * dir[2] >= s->size[0] * length) {
+        out[0] = out[1] = 0;
+        out[2] = s->size[1];
+    } else {
+        out[0] = by * dir[0];
+        out[1] = by * dir[1];
+        out[2] = -s->size[1];
+    }
+}
+
 static void farthest_of_ellipsoid(const peer_set *s, const double *dir, double *out)
 {
     double x[3] = {s->size[0] * dir[0], s->size[1] * dir[1], s->size[2] * dir[2]}, length = sqrt(dot(x, x));
@@ -57,6 +71,9 @@ static void farthest_of_core(const peer_set *s, const double *dir, double *out)
         return;
     case PEER_CYLINDER:
         farthest_of_cylinder(s, dir, out);
+        return;
+    case PEER_CONE:
+        farthest_of_cone(s, dir, out);
         return;
     case PEER_ELLIPSOID:
         farthest_of_ellipsoid(s, dir, out);
@@ -118,29 +135,33 @@ static void *make(const peer_set *set)
 
 /* ---- questions ---- */
 
-static ccd_t settings(double tolerance)
+static const char tolerance[] = "tolerance", steps[] = "steps";
+
+static ccd_t settings(const peer *p)
 {
     ccd_t ccd;
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
     ccd.center1 = ccd.center2 = center;
-    ccd.max_iterations = 100;
-    if (tolerance > 0) {
-        ccd.epa_tolerance = ccd.mpr_tolerance = tolerance;
+    ccd.max_iterations = p->knob == steps ? (unsigned long)p->setting : 100;
+    if (p->knob == tolerance) {
+        ccd.epa_tolerance = ccd.mpr_tolerance = p->setting;
     }
     return ccd;
 }
 
-static int by_gjk(const void *a, const void *b, peer_answer *out)
+static int meet_by_gjk(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
 {
-    ccd_t ccd = settings(0);
+    ccd_t ccd = settings(p);
+    (void)memory;
     out->meet = ccdGJKIntersect(a, b, &ccd) == 1;
     return 0;
 }
 
-static int by_mpr(const void *a, const void *b, peer_answer *out)
+static int meet_by_mpr(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
 {
-    ccd_t ccd = settings(0);
+    ccd_t ccd = settings(p);
+    (void)memory;
     out->meet = ccdMPRIntersect(a, b, &ccd) == 1;
     return 0;
 }
@@ -148,9 +169,9 @@ static int by_mpr(const void *a, const void *b, peer_answer *out)
 typedef int penetrate(const void *, const void *, const ccd_t *, ccd_real_t *, ccd_vec3_t *, ccd_vec3_t *);
 
 /* They are said not to meet by -1; -2 is no answer. */
-static int how_deep(penetrate *by, double tolerance, const void *a, const void *b, peer_answer *out)
+static int how_deep(penetrate *by, const peer *p, const void *a, const void *b, peer_answer *out)
 {
-    ccd_t ccd = settings(tolerance);
+    ccd_t ccd = settings(p);
     ccd_real_t depth = 0;
     ccd_vec3_t dir = {{0}}, at;
     int said = by(a, b, &ccd, &depth, &dir, &at);
@@ -162,45 +183,68 @@ static int how_deep(penetrate *by, double tolerance, const void *a, const void *
     return said < -1;
 }
 
-#define FINE 1e-10
-
-static int deep_by_gjk(const void *a, const void *b, peer_answer *out)
+static int deep_by_gjk(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
 {
-    return how_deep(ccdGJKPenetration, 0, a, b, out);
+    (void)memory;
+    return how_deep(ccdGJKPenetration, p, a, b, out);
 }
 
-static int deep_by_mpr(const void *a, const void *b, peer_answer *out)
+static int deep_by_mpr(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
 {
-    return how_deep(ccdMPRPenetration, 0, a, b, out);
+    (void)memory;
+    return how_deep(ccdMPRPenetration, p, a, b, out);
 }
 
-static int finely_by_gjk(const void *a, const void *b, peer_answer *out)
+/* ---- settings ---- */
+
+#define MOST 32
+#define FIXED "max_iterations 100 as its manual has it"
+
+static peer all[MOST];
+static int count_of_all;
+
+static peer *add(int mpr, const char *knob, double setting)
 {
-    return how_deep(ccdGJKPenetration, FINE, a, b, out);
+    peer *p = &all[count_of_all++];
+    memset(p, 0, sizeof *p);
+    p->library = mpr ? "libccd MPR" : "libccd GJK";
+    p->knob = knob;
+    p->setting = setting;
+    p->version = PEER_VERSION;
+    p->how[INTERSECT] = mpr ? "ccdMPRIntersect, " FIXED : "ccdGJKIntersect, " FIXED;
+    p->how[PENETRATION] = mpr ? "ccdMPRPenetration, " FIXED : "ccdGJKPenetration, " FIXED;
+    p->how[DISTANCE] = "";
+    p->dim = 3;
+    p->single = sizeof(ccd_real_t) == sizeof(float);
+    p->cores = ALL_CORES;
+    p->poses = p->radii = 1;
+    p->make = make;
+    p->discard = free;
+    p->query[PENETRATION] = mpr ? deep_by_mpr : deep_by_gjk;
+    return p;
 }
 
-static int finely_by_mpr(const void *a, const void *b, peer_answer *out)
+/* The tolerance that it comes with is the usual one; of whether they meet by GJK it knows none. */
+const peer *gjk_peers(int *count)
 {
-    return how_deep(ccdMPRPenetration, FINE, a, b, out);
-}
-
-#define USUAL "max_iterations 100 as its manual has it, tolerance 1e-4 as it comes"
-#define OF(title, asked, asked_how_deep, query, penetration)                                                           \
-    {                                                                                                                  \
-        title, PEER_VERSION, asked, asked_how_deep, 3, sizeof(ccd_real_t) == sizeof(float), 0, 1, 1, 0, make, free,    \
-            query, penetration                                                                                         \
+    static const double tolerances[] = {1e-4, 1e-2, 1e-3, 1e-6, 1e-8, 1e-10, 1e-12};
+    static const double iterations[] = {4, 8, 16, 32};
+    count_of_all = 0;
+    for (int mpr = 0; mpr < 2; mpr++) {
+        for (int k = 0; k < (int)(sizeof tolerances / sizeof *tolerances); k++) {
+            peer *p = add(mpr, tolerance, tolerances[k]);
+            p->usual = k == 0;
+            p->tolerance = tolerances[k];
+            if (mpr || k == 0) {
+                p->query[INTERSECT] = mpr ? meet_by_mpr : meet_by_gjk;
+            }
+        }
+        for (int k = 0; k < (int)(sizeof iterations / sizeof *iterations); k++) {
+            peer *p = add(mpr, steps, iterations[k]);
+            p->tolerance = tolerances[0];
+            p->query[INTERSECT] = mpr ? meet_by_mpr : meet_by_gjk;
+        }
     }
-
-const peer *const *gjk_peers(void)
-{
-    static const peer gjk =
-        OF("libccd GJK", "ccdGJKIntersect, " USUAL, "ccdGJKPenetration, " USUAL, by_gjk, deep_by_gjk);
-    static const peer mpr =
-        OF("libccd MPR", "ccdMPRIntersect, " USUAL, "ccdMPRPenetration, " USUAL, by_mpr, deep_by_mpr);
-    static const peer fine_gjk =
-        OF("libccd GJK 1e-10", "", "ccdGJKPenetration, epa_tolerance 1e-10", NULL, finely_by_gjk);
-    static const peer fine_mpr =
-        OF("libccd MPR 1e-10", "", "ccdMPRPenetration, mpr_tolerance 1e-10", NULL, finely_by_mpr);
-    static const peer *const all[] = {&gjk, &mpr, &fine_gjk, &fine_mpr, NULL};
+    *count = count_of_all;
     return all;
 }

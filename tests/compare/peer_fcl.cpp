@@ -5,6 +5,7 @@
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
@@ -18,6 +19,7 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace
 {
@@ -51,6 +53,8 @@ std::shared_ptr<fcl::CollisionGeometryd> shape(const peer_set *set)
         return std::make_shared<fcl::Capsuled>(set->radius, 2 * std::abs(set->v[2]));
     case PEER_CYLINDER:
         return std::make_shared<fcl::Cylinderd>(size[0], 2 * size[1]);
+    case PEER_CONE:
+        return std::make_shared<fcl::Coned>(size[0], 2 * size[1]);
     case PEER_ELLIPSOID:
         return std::make_shared<fcl::Ellipsoidd>(size[0], size[1], size[2]);
     case PEER_ORIGIN:
@@ -72,6 +76,16 @@ void *make(const peer_set *set)
     return b;
 }
 
+void discard(void *made) { delete static_cast<body *>(made); }
+
+/* ---- questions ---- */
+
+const char tolerance[] = "tolerance";
+
+const char own_name[] = "FCL own GJK";
+
+fcl::GJKSolverType solver_of(const peer *p) { return p->library == own_name ? fcl::GST_INDEP : fcl::GST_LIBCCD; }
+
 double distance(const void *a, const void *b, const fcl::DistanceRequestd &request, fcl::DistanceResultd *result)
 {
     const body *x = static_cast<const body *>(a), *y = static_cast<const body *>(b);
@@ -79,11 +93,12 @@ double distance(const void *a, const void *b, const fcl::DistanceRequestd &reque
 }
 
 /* It returns -1 where they meet, and the largest number where it found nothing. */
-int ask(const void *a, const void *b, fcl::GJKSolverType solver, peer_answer *out)
+int how_far(const peer *p, const void *a, const void *b, void *, peer_answer *out)
 try {
     fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
-    request.gjk_solver_type = solver;
+    request.gjk_solver_type = solver_of(p);
+    request.distance_tolerance = p->setting;
     double d = distance(a, b, request, &result);
     out->meet = d <= 0;
     out->distance = d <= 0 ? 0 : d;
@@ -93,10 +108,11 @@ try {
 }
 
 /* It tells the way out by the two points alone. */
-int signed_distance(const void *a, const void *b, peer_answer *out)
+int signed_distance(const peer *p, const void *a, const void *b, void *, peer_answer *out)
 try {
     fcl::DistanceRequestd request(true, true);
     fcl::DistanceResultd result;
+    request.distance_tolerance = p->setting;
     double d = distance(a, b, request, &result);
     fcl::Vector3d normal = (result.nearest_points[0] - result.nearest_points[1]).normalized();
     out->meet = d <= 0;
@@ -109,21 +125,45 @@ try {
     return 1;
 }
 
+void collide(const peer *p, const void *a, const void *b, bool deep, void *memory, fcl::CollisionResultd *result)
+{
+    const body *x = static_cast<const body *>(a), *y = static_cast<const body *>(b);
+    fcl::CollisionRequestd request(1, deep);
+    request.gjk_solver_type = solver_of(p);
+    request.gjk_tolerance = p->setting;
+    if (memory) {
+        fcl::Vector3d guess = Eigen::Map<fcl::Vector3d>(static_cast<double *>(memory));
+        request.enable_cached_gjk_guess = true;
+        request.cached_gjk_guess = guess.isZero() ? fcl::Vector3d(1, 0, 0) : guess;
+    }
+    fcl::collide(x->shape.get(), x->pose, y->shape.get(), y->pose, request, *result);
+    if (memory) {
+        Eigen::Map<fcl::Vector3d>(static_cast<double *>(memory)) = result->cached_gjk_guess;
+    }
+}
+
+int meet(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
+try {
+    fcl::CollisionResultd result;
+    collide(p, a, b, false, memory, &result);
+    out->meet = result.isCollision();
+    return 0;
+} catch (const std::exception &) {
+    return 1;
+}
+
 /* Where it has no way of its own for the pair, the depth comes below 0, and the normal from b to a, in the frame of a.
  */
-int contact(const void *a, const void *b, peer_answer *out)
+int contact(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
 try {
-    fcl::CollisionRequestd request(1, true);
     fcl::CollisionResultd result;
-    request.gjk_solver_type = fcl::GST_INDEP;
-    const body *x = static_cast<const body *>(a), *y = static_cast<const body *>(b);
-    fcl::collide(x->shape.get(), x->pose, y->shape.get(), y->pose, request, result);
+    collide(p, a, b, true, memory, &result);
     out->meet = result.isCollision();
     if (out->meet) {
         double depth = result.getContact(0).penetration_depth;
         fcl::Vector3d normal = result.getContact(0).normal;
         if (depth < 0) {
-            normal = -(x->pose.linear() * normal);
+            normal = -(static_cast<const body *>(a)->pose.linear() * normal);
         }
         out->depth = std::abs(depth);
         for (int i = 0; i < 3; i++) {
@@ -135,40 +175,47 @@ try {
     return 1;
 }
 
-int by_ccd(const void *a, const void *b, peer_answer *out) { return ask(a, b, fcl::GST_LIBCCD, out); }
-int by_own(const void *a, const void *b, peer_answer *out) { return ask(a, b, fcl::GST_INDEP, out); }
-void discard(void *made) { delete static_cast<body *>(made); }
+/* ---- settings ---- */
 
-const peer ccd = {"FCL",
-                  PEER_VERSION,
-                  "distance of Convex, GST_LIBCCD, tolerances as they come",
-                  "signed distance of its shapes, GST_LIBCCD, tolerances as they come",
-                  3,
-                  0,
-                  0,
-                  0,
-                  1,
-                  1,
-                  make,
-                  discard,
-                  by_ccd,
-                  signed_distance};
-const peer own = {"FCL own GJK",
-                  PEER_VERSION,
-                  "distance of Convex, GST_INDEP, tolerances as they come",
-                  "contact of collide of its shapes, GST_INDEP, tolerances as they come",
-                  3,
-                  0,
-                  0,
-                  0,
-                  1,
-                  1,
-                  make,
-                  discard,
-                  by_own,
-                  contact};
-const peer *const all[] = {&ccd, &own, nullptr};
+peer setting(bool own, double value, size_t memory)
+{
+    peer p = peer();
+    p.library = own ? own_name : "FCL";
+    p.knob = tolerance;
+    p.setting = p.tolerance = value;
+    p.usual = value == 1e-6; /* as it comes */
+    p.memory = memory;
+    p.version = PEER_VERSION;
+    p.how[DISTANCE] = own ? "distance, GST_INDEP" : "distance, GST_LIBCCD";
+    p.how[INTERSECT] = own ? "collide, GST_INDEP" : "collide, GST_LIBCCD";
+    p.how[PENETRATION] =
+        own ? "contact of collide of its shapes, GST_INDEP" : "signed distance of its shapes, GST_LIBCCD";
+    p.dim = 3;
+    p.cores = ALL_CORES;
+    p.poses = 1;
+    p.make = make;
+    p.discard = discard;
+    if (memory == 0) {
+        p.query[DISTANCE] = how_far;
+        p.query[PENETRATION] = own ? contact : signed_distance;
+    }
+    p.query[INTERSECT] = meet;
+    return p;
+}
 
 } // namespace
 
-const peer *const *gjk_peers() { return all; }
+/* Only its own solver takes a guess, and only when it is asked whether they meet. */
+const peer *gjk_peers(int *count)
+{
+    static std::vector<peer> all;
+    if (all.empty()) {
+        for (double value : {1e-6, 1e-2, 1e-3, 1e-4, 1e-8, 1e-10, 1e-12}) {
+            all.push_back(setting(false, value, 0));
+            all.push_back(setting(true, value, 0));
+        }
+        all.push_back(setting(true, 1e-6, 3 * sizeof(double)));
+    }
+    *count = static_cast<int>(all.size());
+    return all.data();
+}

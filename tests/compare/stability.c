@@ -315,6 +315,7 @@ static int feed(peer_set *set, double **numbers, const view *v, real radius, int
 static void feed_pair(fed *f, int single)
 {
     memset(f, 0, sizeof *f);
+    f->dim = DIM;
     if (now.truth->a.count == 0 || now.truth->b.count == 0) {
         return;
     }
@@ -343,6 +344,9 @@ static double verdict_error(const fed *f, int meet)
     return by > 0 ? (double)(by / f->scale) : 0;
 }
 
+/* Who cannot measure says whether they meet. */
+static enum question how_far(const peer *p) { return p->query[DISTANCE] ? DISTANCE : INTERSECT; }
+
 static void keep_example(peer_tally *s, long index, int points, int wrong, double error)
 {
     int better = wrong != s->example_wrong              ? wrong
@@ -368,7 +372,7 @@ static void judge(peer_tally *s, const peer *p, const fed *f, const reply *r, lo
     s->gave_up += r->outcome == GAVE_UP;
     s->crashed += r->outcome == CRASHED;
     s->hung += r->outcome == HUNG;
-    if (r->outcome == ANSWERED && p->distances) {
+    if (r->outcome == ANSWERED && how_far(p) == DISTANCE) {
         quad unit = f->scale * (quad)u + (p->single ? (quad)FLT_MIN : (quad)DBL_MIN);
         error = (double)(off((quad)r->answer.distance, positive(f->lower), positive(f->upper)) / unit);
         for (int k = 0; k < 3; k++) {
@@ -420,7 +424,7 @@ static void print_peer_tally(const peer *p, int group, const peer_tally *s, cons
     printf("{\"row\": \"peer\", \"variant\": \"%s\", \"group\": \"%s\", \"peer\": \"%s\", \"extreme\": %d, \"asked\": "
            "%ld, \"gave_up\": %ld, "
            "\"crashed\": %ld, \"hung\": %ld, \"wrong\": %ld, \"near_wrong\": %ld, \"over\": [%ld, %ld, %ld]",
-           VARIANT, group_name(group), p->name, is_extreme_group(group), s->asked, s->gave_up, s->crashed, s->hung,
+           VARIANT, group_name(group), p->library, is_extreme_group(group), s->asked, s->gave_up, s->crashed, s->hung,
            s->wrong, s->near_wrong, s->over[0], s->over[1], s->over[2]);
     print_number("error", s->max_error);
     if (s->example >= 0) {
@@ -428,12 +432,12 @@ static void print_peer_tally(const peer *p, int group, const peer_tally *s, cons
         const reply *r = &replies[s->example];
         printf(", \"example\": {\"index\": %ld, \"outcome\": \"%s\", \"meet\": %d", s->example, outcomes[r->outcome],
                r->answer.meet);
-        print_number("distance", p->distances ? r->answer.distance : 0);
+        print_number("distance", how_far(p) == DISTANCE ? r->answer.distance : 0);
         print_number("lower", (double)f->lower);
         print_number("upper", (double)f->upper);
         print_number("error", s->example_error);
         printf(", \"case\": ");
-        print_fed_case(stdout, f, p->distances ? "distance" : "intersect");
+        print_fed_case(stdout, f, how_far(p) == DISTANCE ? "distance" : "intersect");
         printf("}");
     }
     printf("}\n");
@@ -460,7 +464,7 @@ static void ask_how_far(const peer *p, const tally *s)
     peer_tally theirs;
     memset(&theirs, 0, sizeof theirs);
     theirs.example = -1;
-    ask_peer(p, HOW_FAR, pairs, (int)s->pairs, replies);
+    ask_peer(p, how_far(p), pairs, (int)s->pairs, 0, replies);
     for (long i = 0; i < s->pairs; i++) {
         judge(&theirs, p, &pairs[i], &replies[i], i);
     }
@@ -471,17 +475,17 @@ static void ask_how_far(const peer *p, const tally *s)
 static void ask_how_deep(const peer *p, const tally *s)
 {
     const fed *pairs = fed_pairs[p->single];
-    depth_tally theirs;
-    start_depth_tally(&theirs);
-    ask_peer(p, HOW_DEEP, pairs, (int)s->pairs, replies);
+    score theirs;
+    start_score(&theirs, PENETRATION);
+    ask_peer(p, PENETRATION, pairs, (int)s->pairs, 0, replies);
     for (long i = 0; i < s->pairs; i++) {
         if (replies[i].outcome != NOT_ASKED && !(pairs[i].lower > 0)) {
-            judge_depth(&theirs, p, &pairs[i], &replies[i], i);
+            judge_answer(&theirs, p, &pairs[i], &replies[i], i);
         }
     }
     printf("{\"row\": \"peer depth\", \"variant\": \"%s\", \"group\": \"%s\", \"peer\": \"%s\", \"extreme\": %d",
-           VARIANT, group_name(s->group), p->name, is_extreme_group(s->group));
-    print_depth_tally(&theirs, pairs, replies);
+           VARIANT, group_name(s->group), p->library, is_extreme_group(s->group));
+    print_score(&theirs, pairs, replies);
     printf("}\n");
 }
 
@@ -524,7 +528,7 @@ static void one_group(tally *s, const peer_list *peers)
 {
     long most = s->group < FAMILIES ? pairs_per_family : (long)C(_count);
     int single[2] = {0, 0};
-    replies = reply_space((int)most);
+    replies = shared_space((size_t)most * sizeof *replies);
     for (int k = 0; k < peers->count; k++) {
         single[peers->all[k]->single] |= peers->all[k]->dim == DIM;
     }
@@ -539,10 +543,10 @@ static void one_group(tally *s, const peer_list *peers)
     print_tally(s);
     for (int k = 0; k < peers->count; k++) {
         const peer *p = peers->all[k];
-        if (p->dim == DIM && p->query) {
+        if (p->dim == DIM && p->query[how_far(p)]) {
             ask_how_far(p, s);
         }
-        if (p->dim == DIM && p->penetration) {
+        if (p->dim == DIM && p->query[PENETRATION]) {
             ask_how_deep(p, s);
         }
     }
@@ -564,6 +568,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: stability PAIRS SEED OUTPUT [NAME=MODULE...]\n");
         return 2;
     }
+    keep_usual(&peers);
     pairs_per_family = strtol(argv[1], NULL, 10);
     seed = strtoull(argv[2], NULL, 10);
     print_head(&peers);

@@ -1,0 +1,543 @@
+/* SPDX-License-Identifier: MIT */
+/* The library beside its peers on everyday pairs: each answer held against exact truth, and what it cost.
+ *
+ *   bench PAIRS ROUNDS OUTPUT [NAME=MODULE...]     writes JSON, one object a line, for comparison.py
+ *
+ * PAIRS is the binary file that draw_pairs and robot_pairs.py write. The library is a peer as any. In each round
+ * everyone, in every setting, answers in turn all pairs of a class. ROUNDS 0: nothing is judged; run by callgrind, with
+ * --instr-atstart=no, it dumps the instructions of one pass each, under the label that the answers have. Ends with 1
+ * where the library failed, and where a peer is missing that the environment variable GJK_COMPARE_NEEDS names. */
+#define _DEFAULT_SOURCE /* fork */
+#include "judge.h"
+#include "pair_file.h"
+#include "timing.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#define NOT_THERE HUGE_VAL /* printed as null */
+#define VALUE_ERROR 4.0    /* of ours, of bodies with corners, in u * scale */
+#define NORMAL_EXCESS 16.0
+#define MOST_DEADLY 20
+#define LONGEST_SHOWN 64 /* points of an example */
+
+static const char *const question_name[QUESTIONS] = {"distance", "intersect", "penetration"};
+
+static long rounds;
+static peer_list peers;
+static pair_block block;
+static fed *pairs;
+
+/* ---- whom to ask ---- */
+
+typedef struct entry {
+    const peer *p;
+    reply *replies;
+    int timed;
+    run run;
+} entry;
+
+static entry asked[MOST_PEERS];
+static int count_asked;
+
+static int takes_all(const peer *p)
+{
+    for (int i = 0; i < block.pairs; i++) {
+        if (!takes_pair(p, &pairs[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Of pairs in float those in double are asked, too, as they come; never the other way round. What is kept in mind helps
+ * along a path only. */
+static int is_asked(const peer *p, enum question question)
+{
+    int fits = p->single == block.single || (p->usual && p->single < block.single);
+    return fits && p->query[question] && (p->memory == 0 || block.track > 0) && takes_all(p);
+}
+
+/* Of growth with the accuracy: whose is a tolerance; else those that are set as usual. */
+static int is_grown(const peer *p)
+{
+    return strcmp(block.growth, "accuracy") == 0 ? strcmp(p->knob, "tolerance") == 0 : p->usual;
+}
+
+static void choose(enum question question)
+{
+    count_asked = 0;
+    for (int k = 0; k < peers.count; k++) {
+        const peer *p = peers.all[k];
+        if (is_asked(p, question) && (!*block.growth || is_grown(p))) {
+            memset(&asked[count_asked], 0, sizeof asked[0]);
+            asked[count_asked++].p = p;
+        }
+    }
+}
+
+static size_t reply_bytes(void) { return (size_t)block.pairs * sizeof(reply); }
+
+static void ask_all(enum question question)
+{
+    for (int k = 0; k < count_asked; k++) {
+        asked[k].replies = shared_space(reply_bytes());
+        ask_peer(asked[k].p, question, pairs, block.pairs, block.track, asked[k].replies);
+    }
+}
+
+static void forget_replies(void)
+{
+    for (int k = 0; k < count_asked; k++) {
+        give_back(asked[k].replies, reply_bytes());
+    }
+}
+
+/* ---- what is timed ---- */
+
+static long *track_of; /* of each pair that is timed */
+static int *safe;      /* those pairs */
+static long count_safe;
+
+static int is_deadly(const entry *e, int i) { return e->replies[i].outcome > GAVE_UP; }
+
+/* Who crashes or hangs on more than one pair in so many is not timed; pairs on which any other does are timed of no
+ * one. */
+static void find_safe(void)
+{
+    for (int k = 0; k < count_asked; k++) {
+        long deaths = 0;
+        for (int i = 0; i < block.pairs; i++) {
+            deaths += is_deadly(&asked[k], i);
+        }
+        asked[k].timed = deaths * MOST_DEADLY <= block.pairs;
+    }
+    count_safe = 0;
+    for (int i = 0; i < block.pairs; i++) {
+        int fine = 1;
+        for (int k = 0; k < count_asked; k++) {
+            fine &= !asked[k].timed || !is_deadly(&asked[k], i);
+        }
+        if (fine) {
+            safe[count_safe] = i;
+            track_of[count_safe++] = block.track ? i / block.track : 0;
+        }
+    }
+}
+
+/* The bodies of one that makes them alike, or NULL. */
+static void *const *bodies_like(const peer *p, int count)
+{
+    for (int k = 0; k < count; k++) {
+        if (asked[k].p->make == p->make) {
+            return asked[k].run.bodies;
+        }
+    }
+    return NULL;
+}
+
+static void **make_bodies(const peer *p)
+{
+    void **made = calloc(2 * (size_t)count_safe + 1, sizeof *made);
+    for (long i = 0; i < count_safe && made; i++) {
+        long first = i;
+        while (block.track && first > 0 && track_of[first - 1] == track_of[i]) {
+            first--;
+        }
+        made[2 * i] = make_body(p, &pairs[safe[i]].a, first < i ? made[2 * first] : NULL);
+        made[2 * i + 1] = make_body(p, &pairs[safe[i]].b, first < i ? made[2 * first + 1] : NULL);
+    }
+    return made;
+}
+
+static void start_runs(enum question question)
+{
+    for (int k = 0; k < count_asked; k++) {
+        run *r = &asked[k].run;
+        const peer *p = r->p = asked[k].p;
+        void *const *like = bodies_like(p, k);
+        r->query = p->query[question];
+        r->bodies = like ? like : make_bodies(p);
+        r->track = track_of;
+        r->tracks = block.track ? (block.pairs - 1) / block.track + 1 : 1;
+        r->memory = p->memory ? calloc((size_t)r->tracks, p->memory) : NULL;
+    }
+}
+
+static void end_runs(void)
+{
+    for (int k = count_asked - 1; k >= 0; k--) { /* those who share bodies come after the one who made them */
+        const run *r = &asked[k].run;
+        free(r->memory);
+        if (!bodies_like(r->p, k)) {
+            for (long i = 2 * count_safe - 1; i >= 0; i--) {
+                r->p->discard(r->bodies[i]);
+            }
+            free((void *)r->bodies);
+        }
+    }
+}
+
+/* ---- what is printed ---- */
+
+static void print_asked(enum question question)
+{
+    printf("\"question\": \"%s\", \"dim\": %d, \"precision\": \"%s\", \"class\": \"%s\", \"state\": \"%s\"",
+           question_name[question], block.dim, block.single ? "float" : "double", block.name, block.state);
+}
+
+/* Tolerances as powers of ten. */
+static void spell_setting(char *text, size_t size, const peer *p)
+{
+    if (strcmp(p->knob, "tolerance") == 0) {
+        snprintf(text, size, "1e%.0f", log10(p->setting));
+    } else if (strcmp(p->knob, "steps") == 0) {
+        snprintf(text, size, "%.0f", p->setting);
+    } else {
+        snprintf(text, size, "%s", "");
+    }
+}
+
+static void spell_label(char *text, size_t size, enum question question, const peer *p)
+{
+    char setting[32];
+    spell_setting(setting, sizeof setting, p);
+    snprintf(text, size, "%s/%d/%s/%s/%s/%s/%s/%s/%s", question_name[question], block.dim,
+             block.single ? "float" : "double", block.name, block.state, p->library, p->knob, setting,
+             p->memory ? "warm" : "cold");
+}
+
+static const char *truth_value(int x) { return x ? "true" : "false"; }
+
+/* Ours is the variant of the pairs' own precision. */
+static void print_library(const peer *p)
+{
+    char setting[32];
+    spell_setting(setting, sizeof setting, p);
+    printf(", \"library\": \"%s\", \"knob\": \"%s\", \"setting\": \"%s\", \"default\": %s, \"warm\": %s, "
+           "\"ours\": %s",
+           p->library, p->knob, setting, truth_value(p->usual), truth_value(p->memory != 0),
+           truth_value(p->proves && p->single == block.single));
+}
+
+static void print_class(enum question question, const run *empty)
+{
+    double width = 0, least = HUGE_VAL, most = -HUGE_VAL;
+    for (int i = 0; i < block.pairs; i++) {
+        const fed *f = &pairs[i];
+        width = fmax(width, (double)((f->upper - f->lower) / f->scale));
+        least = fmin(least, (double)(f->lower / f->scale));
+        most = fmax(most, (double)(f->upper / f->scale));
+    }
+    printf("{\"row\": \"class\", ");
+    print_asked(question);
+    printf(", \"pairs\": %d, \"timed\": %ld", block.pairs, count_safe);
+    print_number("truth_width", width);
+    print_number("least", least);
+    print_number("most", most);
+    print_number("empty_least", empty->least);
+    print_number("empty_median", empty->median);
+    printf("}\n");
+}
+
+static double mean_supports(const entry *e)
+{
+    double sum = 0;
+    long count = 0;
+    for (int i = 0; i < block.pairs && e->p->proves; i++) {
+        if (e->replies[i].outcome == ANSWERED) {
+            sum += e->replies[i].answer.supports;
+            count++;
+        }
+    }
+    return count ? sum / (double)count : NOT_THERE;
+}
+
+static double said(enum question question, const peer_answer *x)
+{
+    return question == INTERSECT ? x->meet : question == DISTANCE ? (x->meet ? 0 : x->distance) : -x->depth;
+}
+
+static void print_example(const score *s, const entry *e)
+{
+    const fed *f = &pairs[s->example < 0 ? 0 : s->example];
+    int bad = s->example >= 0 && (s->worst.failure != SOUND || s->worst.wrong);
+    if (!bad || f->a.count + f->b.count > LONGEST_SHOWN) {
+        printf(", \"example\": null, \"truth\": null, \"said\": null");
+        return;
+    }
+    printf(", \"example\": ");
+    print_fed_case(stdout, f, question_name[s->question]);
+    print_number("truth", (double)((f->lower + f->upper) / 2));
+    print_number("said", said(s->question, &e->replies[s->example].answer));
+    printf(", \"failure\": \"%s\"", failure_name(s->worst.failure));
+}
+
+/* ---- judgement ---- */
+
+static int is_sharp(const peer_set *s)
+{
+    return s->radius == 0 &&
+           (s->core == PEER_POINTS || s->core == PEER_BOX || s->core == PEER_SEGMENT || s->core == PEER_ORIGIN);
+}
+
+/* Whether ours is not as good as it says: in any setting no bracket without the truth in it, and without options the
+ * error of bodies with corners is one of rounding. */
+static int fails(const peer *p, const fed *f, const judgement *j)
+{
+    double u = (p->single ? (double)FLT_EPSILON : DBL_EPSILON) / 2;
+    int sharp = is_sharp(&f->a) && is_sharp(&f->b);
+    return p->proves && (j->wrong || (p->usual && j->failure != SOUND) ||
+                         (p->usual && sharp && !(j->error <= VALUE_ERROR * u && j->excess <= NORMAL_EXCESS * u)));
+}
+
+/* Returns how often ours failed. */
+static long print_answers(enum question question, const entry *e, const run *empty)
+{
+    char label[200];
+    score s;
+    long bad = 0, sound = 0;
+    double *error = calloc((size_t)block.pairs, sizeof *error);
+    start_score(&s, question);
+    for (int i = 0; i < block.pairs && error; i++) {
+        judgement j = judge_answer(&s, e->p, &pairs[i], &e->replies[i], i);
+        if (j.failure == SOUND) {
+            error[sound++] = j.error;
+        }
+        bad += fails(e->p, &pairs[i], &j);
+    }
+    spell_label(label, sizeof label, question, e->p);
+    printf("{\"row\": \"answers\", ");
+    print_asked(question);
+    print_library(e->p);
+    print_number("least", e->run.least - empty->least);
+    print_number("median", e->run.median - empty->median);
+    print_number("supports", mean_supports(e));
+    print_number("promised", e->p->proves ? s.promised : NOT_THERE);
+    print_number("max_error", question == INTERSECT ? NOT_THERE : s.error);
+    print_number("median_error", question == INTERSECT ? NOT_THERE : median(error, sound));
+    print_number("excess", question == PENETRATION ? s.excess : NOT_THERE);
+    printf(", \"asked\": %ld, \"wrong\": %ld, \"failed\": %ld", s.asked, s.wrong, failures_of(&s));
+    print_example(&s, e);
+    printf(", \"instructions\": null, \"label\": \"%s\"}\n", label);
+    free(error);
+    return bad;
+}
+
+/* The truth of every second pair is found by a child. */
+static void find_truths(void)
+{
+    pid_t child;
+    int status = 0;
+    fflush(NULL);
+    child = fork();
+    for (int i = child == 0; i < block.pairs; i += child < 0 ? 1 : 2) {
+        find_fed_truth(&pairs[i]);
+    }
+    if (child == 0) {
+        _exit(0);
+    }
+    if (child > 0 && (waitpid(child, &status, 0) < 0 || status != 0)) {
+        fprintf(stderr, "the truth was not found\n");
+        exit(2);
+    }
+}
+
+/* ---- one block ---- */
+
+static void count_one(const run *r, const char *label)
+{
+    count_run(r, count_safe, label);
+    printf("{\"row\": \"counted\", \"label\": \"%s\", \"answers\": %ld}\n", label, count_safe);
+}
+
+/* What asking costs by itself is counted once. */
+static void count_instructions(enum question question)
+{
+    static int nothing_counted;
+    if (!nothing_counted) {
+        run nothing = asked[0].run;
+        nothing.query = ask_nothing;
+        count_one(&nothing, "nothing");
+        nothing_counted = 1;
+    }
+    for (int k = 0; k < count_asked; k++) {
+        if (asked[k].timed) {
+            char label[200];
+            spell_label(label, sizeof label, question, asked[k].p);
+            count_one(&asked[k].run, label);
+        }
+    }
+}
+
+/* The last of the runs asks nothing. */
+static void time_all(run *empty)
+{
+    static run runs[MOST_PEERS + 1];
+    int count = 0;
+    for (int k = 0; k < count_asked; k++) {
+        if (asked[k].timed) {
+            runs[count++] = asked[k].run;
+        }
+    }
+    runs[count] = asked[0].run;
+    runs[count].query = ask_nothing;
+    time_runs(runs, count + 1, count_safe, rounds);
+    *empty = runs[count];
+    for (int k = count_asked - 1; k >= 0; k--) {
+        if (asked[k].timed) {
+            asked[k].run = runs[--count];
+        } else {
+            asked[k].run.least = asked[k].run.median = NOT_THERE;
+        }
+    }
+}
+
+/* Returns how often ours failed. */
+static long compare(enum question question)
+{
+    run empty;
+    long bad = 0;
+    choose(question);
+    ask_all(question);
+    find_safe();
+    start_runs(question);
+    if (rounds == 0) {
+        count_instructions(question);
+    } else {
+        time_all(&empty);
+        print_class(question, &empty);
+        for (int k = 0; k < count_asked; k++) {
+            bad += print_answers(question, &asked[k], &empty);
+        }
+    }
+    end_runs();
+    forget_replies();
+    return bad;
+}
+
+/* Whether all is well with the truth of it is not asked here: of the largest it is not known. */
+static void grow(enum question question)
+{
+    static run floors[MOST_PEERS];
+    run empty;
+    int *calls = calloc((size_t)block.pairs, sizeof *calls);
+    choose(question);
+    ask_all(question);
+    find_safe();
+    start_runs(question);
+    time_all(&empty);
+    for (int k = 0; k < count_asked && calls; k++) {
+        const entry *e = &asked[k];
+        char at[32];
+        run floor = e->run;
+        floor.median = NOT_THERE;
+        if (e->p->supports) {
+            for (long i = 0; i < count_safe; i++) {
+                calls[i] = (int)e->replies[safe[i]].answer.supports;
+            }
+            floor.query = NULL;
+            floor.calls = calls;
+            floors[0] = floor;
+            time_runs(floors, 1, count_safe, rounds);
+            floor = floors[0];
+        }
+        spell_setting(at, sizeof at, e->p);
+        if (strcmp(block.growth, "accuracy") != 0) {
+            snprintf(at, sizeof at, "%d", block.at);
+        }
+        printf("{\"row\": \"growth\", \"by\": \"%s\", \"at\": %s, ", block.growth, at);
+        print_asked(question);
+        print_library(e->p);
+        print_number("median", e->run.median - empty.median);
+        print_number("least", e->run.least - empty.least);
+        print_number("supports", mean_supports(e));
+        print_number("floor", floor.median);
+        printf("}\n");
+    }
+    end_runs();
+    forget_replies();
+    free(calls);
+}
+
+static void read_pairs(FILE *file)
+{
+    size_t count = (size_t)block.pairs;
+    pairs = shared_space(count * sizeof *pairs);
+    track_of = calloc(count, sizeof *track_of);
+    safe = calloc(count, sizeof *safe);
+    for (int i = 0; i < block.pairs; i++) {
+        read_pair(file, block.dim, &pairs[i]);
+    }
+}
+
+static void free_pairs(void)
+{
+    for (int i = 0; i < block.pairs; i++) {
+        free(pairs[i].numbers[0]);
+        free(pairs[i].numbers[1]);
+    }
+    give_back(pairs, (size_t)block.pairs * sizeof *pairs);
+    free(track_of);
+    free(safe);
+}
+
+/* Returns how often ours failed. */
+static long one_block(FILE *file)
+{
+    long bad = 0;
+    time_t start = time(NULL);
+    read_pairs(file);
+    if (!*block.growth && rounds) {
+        find_truths();
+    }
+    for (int question = 0; question < QUESTIONS; question++) {
+        if (block.questions >> question & 1) {
+            if (!*block.growth) {
+                bad += compare((enum question)question);
+            } else if (rounds) {
+                grow((enum question)question);
+            }
+        }
+    }
+    free_pairs();
+    fflush(stdout);
+    fprintf(stderr, "%4.0f s  %s, %s%s%s, %d-D, %s\n", difftime(time(NULL), start), block.name, block.state,
+            *block.growth ? ", growth by " : "", block.growth, block.dim, block.single ? "float" : "double");
+    return bad;
+}
+
+static void print_head(void)
+{
+    printf("{\"row\": \"head\", \"version\": \"%s\", \"compiler\": \"%s\", \"seed\": %d, \"pairs\": %d, \"rounds\": "
+           "%ld, ",
+           GJK_TEST_VERSION, GJK_TEST_COMPILER, block.seed, block.pairs, rounds);
+    print_peers(&peers);
+    printf("}\n");
+}
+
+int main(int argc, char **argv)
+{
+    long bad = 0, missing;
+    FILE *file;
+    if (argc < 5 || !(file = fopen(argv[1], "rb")) || !freopen(argv[3], "w", stdout) ||
+        (missing = load_peers(&peers, argc - 4, argv + 4)) < 0) {
+        fprintf(stderr, "usage: bench PAIRS ROUNDS OUTPUT [NAME=MODULE...]\n");
+        return 2;
+    }
+    rounds = strtol(argv[2], NULL, 10);
+    for (int first = 1; read_block(file, &block); first = 0) {
+        if (first) {
+            print_head();
+        }
+        bad += one_block(file);
+    }
+    fclose(file);
+    printf("{\"row\": \"end\", \"failures\": %ld}\n", bad);
+    return fclose(stdout) != 0 || bad + missing != 0;
+}

@@ -1,0 +1,44 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Builds what measures the library beside its peers, error against run time, runs it, and writes docs/comparison.md, its
+# plot and the page anew.
+#
+#   sh tests/compare/comparison.sh [PAIRS [ROUNDS [SEED [OUT]]]]     of each class, of timing; default 100, 21, 1, docs
+#
+# Peers are used where they are installed (Debian: libccd-dev libbox2d-dev libfcl-dev libbullet-dev), as their packagers
+# compiled them; Box2D 3 also by way of cargo, compiled as the library is. GJK_COMPARE_LIBCCD in the environment, a
+# folder with sources of libccd, has that compiled so, too. Instructions are counted where valgrind is installed. The
+# build stays in build/comparison. Ends with 1 where the library failed; the page is written even so.
+set -eu
+cd "$(dirname "$0")/../.."
+pairs=${1:-100} rounds=${2:-21} seed=${3:-1} folder=${4:-docs}
+build=build/comparison # its log lies beside it
+out=$build/tests/compare
+mkdir -p build
+
+cmake -S . -B $build -DCMAKE_BUILD_TYPE=Release -DGJK_COMPARE_CARGO=ON \
+    "-DGJK_COMPARE_LIBCCD=${GJK_COMPARE_LIBCCD:-}" >$build.log 2>&1 || { cat $build.log; exit 2; }
+grep '^-- Peer' $build.log
+cmake --build $build --parallel "$(nproc)" --target comparison >$build.log 2>&1 || { cat $build.log; exit 2; }
+
+bench() { # PAIRS_FILE ROUNDS RESULTS [COMMAND...]
+    file=$1 rounds_here=$2 results=$3
+    shift 3
+    tr '\n' '\0' <$out/everyone.txt | xargs -0 "$@" $out/bench "$file" "$rounds_here" "$results" || [ $? -eq 123 ]
+}
+sh tests/compare/draw_all.sh $out "$pairs" "$seed" $out/pairs.bin
+bench $out/pairs.bin "$rounds" $out/comparison.jsonl env
+counted=
+if command -v valgrind >/dev/null; then
+    rm -rf $out/counts
+    mkdir $out/counts
+    bench $out/pairs.bin 0 $out/counted.jsonl valgrind -q --tool=callgrind --instr-atstart=no \
+        --callgrind-out-file=$out/counts/callgrind.%p
+    counted="--counted $out/counted.jsonl --counts $out/counts"
+else
+    echo 'valgrind is not installed: instructions are not counted'
+fi
+# shellcheck disable=SC2086 # arguments
+python3 tests/compare/comparison.py --command "sh tests/compare/comparison.sh $pairs $rounds $seed" $counted \
+    -o "$folder/comparison.md" --html build/comparison/index.html --plot "$folder/comparison.svg" \
+    $out/comparison.jsonl

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200112L /* clock_gettime */
+#include "timing.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#if GJK_TEST_KNOWS_CALLGRIND
+#include <valgrind/callgrind.h>
+#else
+#define CALLGRIND_START_INSTRUMENTATION
+#define CALLGRIND_STOP_INSTRUMENTATION
+#define CALLGRIND_DUMP_STATS_AT(name) (void)(name)
+#endif
+
+#define LEAST_ROUND 50e-6 /* seconds */
+#define CLOCK 1e-6        /* more than a look at it takes */
+
+int ask_nothing(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
+{
+    (void)p;
+    (void)memory;
+    out->meet = a != b;
+    return 0;
+}
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+static void forget(const run *r)
+{
+    if (r->memory) {
+        memset(r->memory, 0, (size_t)r->tracks * r->p->memory);
+    }
+}
+
+static void answer_all(const run *r, long pairs)
+{
+    static volatile int sink;
+    for (long i = 0; i < pairs; i++) {
+        peer_answer answer;
+        void *memory = r->memory ? r->memory + (size_t)r->track[i] * r->p->memory : NULL;
+        r->query(r->p, r->bodies[2 * i], r->bodies[2 * i + 1], memory, &answer);
+        sink = answer.meet;
+    }
+    (void)sink;
+}
+
+static void support_all(const run *r, long pairs)
+{
+    for (long i = 0; i < pairs; i++) {
+        r->p->supports(r->bodies[2 * i], r->bodies[2 * i + 1], r->calls[i]);
+    }
+}
+
+static void pass(const run *r, long pairs)
+{
+    if (r->query) {
+        answer_all(r, pairs);
+    } else {
+        support_all(r, pairs);
+    }
+}
+
+static int by_size(const void *x, const void *y)
+{
+    double a = *(const double *)x, b = *(const double *)y;
+    return (a > b) - (a < b);
+}
+
+double median(double *x, long count)
+{
+    qsort(x, (size_t)count, sizeof *x, by_size);
+    return count ? (x[(count - 1) / 2] + x[count / 2]) / 2 : 0;
+}
+
+/* Of so many passes, the seconds each. What is kept in mind is forgotten before each, off the clock. */
+static double time_passes(const run *r, long pairs, long passes)
+{
+    double sum = 0;
+    long at_once = r->memory ? 1 : passes;
+    for (long k = 0; k < passes; k += at_once) {
+        double start;
+        forget(r);
+        start = seconds();
+        for (long i = 0; i < at_once; i++) {
+            pass(r, pairs);
+        }
+        sum += seconds() - start;
+    }
+    return sum / (double)passes;
+}
+
+/* A round of short passes has more of them, so that it is long beside a look at the clock. The first round of all is
+ * not counted. */
+void time_runs(run *runs, int count, long pairs, long rounds)
+{
+    double *ns = calloc((size_t)(count * rounds), sizeof *ns);
+    long *passes = calloc((size_t)count, sizeof *passes);
+    for (int k = 0; k < count && ns && passes; k++) {
+        passes[k] = 1 + (long)(LEAST_ROUND / (time_passes(&runs[k], pairs, 1) + CLOCK));
+    }
+    for (long round = 0; round < rounds && ns && passes; round++) {
+        for (int k = 0; k < count; k++) {
+            ns[k * rounds + round] = time_passes(&runs[k], pairs, passes[k]) * 1e9 / (double)pairs;
+        }
+    }
+    for (int k = 0; k < count && ns; k++) {
+        runs[k].median = median(ns + k * rounds, rounds);
+        runs[k].least = ns[k * rounds];
+    }
+    free(ns);
+    free(passes);
+}
+
+void count_run(const run *r, long pairs, const char *label)
+{
+    forget(r);
+    CALLGRIND_START_INSTRUMENTATION;
+    pass(r, pairs);
+    CALLGRIND_DUMP_STATS_AT(label);
+    CALLGRIND_STOP_INSTRUMENTATION;
+}
