@@ -14,6 +14,9 @@ need() { # PACKAGE COMMAND...: the package is there when the command succeeds
     "$@" >/dev/null 2>&1 || missing="$missing $package"
 }
 links_fuzzers() { echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' | clang -fsanitize=fuzzer,address -x c - -o /dev/null; }
+knows_crates() { # of the edition 2024
+    version=$(cargo --version) && minor=${version#cargo 1.} && [ "${minor%%.*}" -ge 85 ]
+}
 look() {
     missing=
     need gcc command -v gcc
@@ -28,6 +31,8 @@ look() {
     need libgmp-dev pkg-config --exists gmp
     need libccd-dev pkg-config --exists ccd
     need libbox2d-dev pkg-config --exists box2d
+    need cargo-web knows_crates # brings Box2D 3; Debian's plain cargo is too old
+    need valgrind command -v valgrind
     need python3-venv python3 -c 'import ensurepip, venv'
     need python3-dev python3 -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")'
 }
@@ -49,7 +54,7 @@ fi
 
 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
 CTEST_PARALLEL_LEVEL=$CMAKE_BUILD_PARALLEL_LEVEL
-GJK_COMPARE_NEEDS='libccd box2d2' # a test fails where these peers are missing
+GJK_COMPARE_NEEDS='libccd box2d2 box2d3' # a test fails where these peers are missing
 export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL GJK_COMPARE_NEEDS
 for preset in release clang asan-ubsan; do
     say "C: $preset"

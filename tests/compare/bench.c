@@ -63,9 +63,13 @@ static int is_asked(const peer *p, enum question question)
     return fits && p->query[question] && (p->memory == 0 || block.track > 0) && takes_all(p);
 }
 
-/* Of growth with the accuracy: whose is a tolerance; else those that are set as usual. */
-static int is_grown(const peer *p)
+/* Instructions are counted, and growth is told, of those that are set as usual; growth with the accuracy of those whose
+ * tolerance is set. */
+static int is_wanted(const peer *p)
 {
+    if (rounds > 0 && !*block.growth) {
+        return 1;
+    }
     return strcmp(block.growth, "accuracy") == 0 ? strcmp(p->knob, "tolerance") == 0 : p->usual;
 }
 
@@ -74,7 +78,7 @@ static void choose(enum question question)
     count_asked = 0;
     for (int k = 0; k < peers.count; k++) {
         const peer *p = peers.all[k];
-        if (is_asked(p, question) && (!*block.growth || is_grown(p))) {
+        if (is_asked(p, question) && is_wanted(p)) {
             memset(&asked[count_asked], 0, sizeof asked[0]);
             asked[count_asked++].p = p;
         }

@@ -30,10 +30,7 @@ sh tests/compare/draw_all.sh $out "$pairs" "$seed" $out/pairs.bin
 bench $out/pairs.bin "$rounds" $out/comparison.jsonl env
 counted=
 if command -v valgrind >/dev/null; then
-    rm -rf $out/counts
-    mkdir $out/counts
-    bench $out/pairs.bin 0 $out/counted.jsonl valgrind -q --tool=callgrind --instr-atstart=no \
-        --callgrind-out-file=$out/counts/callgrind.%p
+    bench $out/pairs.bin 0 $out/counted.jsonl sh tests/compare/count.sh $out/counts
     counted="--counted $out/counted.jsonl --counts $out/counts"
 else
     echo 'valgrind is not installed: instructions are not counted'
