@@ -161,48 +161,65 @@ static void ask_one(const peer *p, enum question question, const couple *c, void
     r->outcome = failed || !is_number(question, &r->answer) ? GAVE_UP : ANSWERED;
 }
 
-/* In the child, from *at on. What it dies of, if it does, is told by the signal. */
-static void ask_the_rest(const peer *p, enum question question, const fed *pairs, int count, int track, reply *replies,
-                         volatile int *at)
+/* From the pair `from` on; *at is kept at the one asked. */
+static void ask_of_all(const peer *p, enum question question, const fed *pairs, int from, int count, int track,
+                       reply *replies, volatile int *at)
 {
     struct itimerval limit = {{0, 0}, {0, (int)(TIME_LIMIT * 1e6)}};
-    int nowhere = open("/dev/null", O_WRONLY);
     void *memory = p->memory ? calloc(1, p->memory) : NULL;
     const couple none = {NULL, NULL};
     couple first = none; /* of the track */
-    dup2(nowhere, 1);
-    dup2(nowhere, 2);
-    for (; *at < count; ++*at) {
-        if (track == 0 || *at % track == 0) {
+    for (int i = from; i < count; i++, ++*at) {
+        if (!takes_pair(p, &pairs[i])) {
+            continue;
+        }
+        if (track == 0 || i % track == 0) {
             discard_couple(p, &first);
-            first = track ? make_couple(p, &pairs[*at], &none) : none;
+            first = track ? make_couple(p, &pairs[i], &none) : none;
             if (memory) {
                 memset(memory, 0, p->memory);
             }
         }
-        if (takes_pair(p, &pairs[*at])) {
-            couple here;
-            setitimer(ITIMER_VIRTUAL, &limit, NULL);
-            here = make_couple(p, &pairs[*at], &first);
-            ask_one(p, question, &here, memory, &replies[*at]);
+        setitimer(ITIMER_VIRTUAL, &limit, NULL);
+        {
+            couple here = make_couple(p, &pairs[i], &first);
+            ask_one(p, question, &here, memory, &replies[i]);
             discard_couple(p, &here);
         }
+    }
+    discard_couple(p, &first);
+    free(memory);
+}
+
+/* In the child, from *at on, which counts the pairs of one peer after another. What it dies of, if it does, is told by
+ * the signal. */
+static void ask_the_rest(const peer *const *peers, int peer_count, enum question question, const fed *pairs, int count,
+                         int track, reply *const *replies, volatile int *at)
+{
+    int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, 1);
+    dup2(nowhere, 2);
+    for (int k = *at / count; k < peer_count; k++) {
+        ask_of_all(peers[k], question, pairs, *at - k * count, count, track, replies[k], at);
     }
     _exit(0);
 }
 
-void ask_peer(const peer *p, enum question question, const fed *pairs, int count, int track, reply *replies)
+void ask_peers(const peer *const *peers, int peer_count, enum question question, const fed *pairs, int count, int track,
+               reply *const *replies)
 {
     static volatile int *at;
     at = at ? at : shared_space(sizeof *at);
-    memset(replies, 0, (size_t)count * sizeof *replies);
-    for (*at = 0; *at < count; ++*at) {
+    for (int k = 0; k < peer_count; k++) {
+        memset(replies[k], 0, (size_t)count * sizeof *replies[k]);
+    }
+    for (*at = 0; *at < peer_count * count; ++*at) {
         int status = 0;
         pid_t child;
         fflush(NULL);
         child = fork();
         if (child == 0) {
-            ask_the_rest(p, question, pairs, count, track, replies, at);
+            ask_the_rest(peers, peer_count, question, pairs, count, track, replies, at);
         }
         while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
         }
@@ -213,6 +230,7 @@ void ask_peer(const peer *p, enum question question, const fed *pairs, int count
         if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
             return;
         }
-        replies[*at].outcome = WIFSIGNALED(status) && WTERMSIG(status) == SIGVTALRM ? HUNG : CRASHED;
+        replies[*at / count][*at % count].outcome =
+            WIFSIGNALED(status) && WTERMSIG(status) == SIGVTALRM ? HUNG : CRASHED;
     }
 }

@@ -87,11 +87,17 @@ static void choose(enum question question)
 
 static size_t reply_bytes(void) { return (size_t)block.pairs * sizeof(reply); }
 
+/* Each library, in all its settings, in a process of its own. */
 static void ask_all(enum question question)
 {
-    for (int k = 0; k < count_asked; k++) {
-        asked[k].replies = shared_space(reply_bytes());
-        ask_peer(asked[k].p, question, pairs, block.pairs, block.track, asked[k].replies);
+    const peer *alike[MOST_PEERS];
+    reply *replies[MOST_PEERS];
+    for (int k = 0, count; k < count_asked; k += count) {
+        for (count = 0; k + count < count_asked && asked[k + count].p->make == asked[k].p->make; count++) {
+            alike[count] = asked[k + count].p;
+            replies[count] = asked[k + count].replies = shared_space(reply_bytes());
+        }
+        ask_peers(alike, count, question, pairs, block.pairs, block.track, replies);
     }
 }
 

@@ -464,7 +464,7 @@ static void ask_how_far(const peer *p, const tally *s)
     peer_tally theirs;
     memset(&theirs, 0, sizeof theirs);
     theirs.example = -1;
-    ask_peer(p, how_far(p), pairs, (int)s->pairs, 0, replies);
+    ask_peers(&p, 1, how_far(p), pairs, (int)s->pairs, 0, &replies);
     for (long i = 0; i < s->pairs; i++) {
         judge(&theirs, p, &pairs[i], &replies[i], i);
     }
@@ -477,7 +477,7 @@ static void ask_how_deep(const peer *p, const tally *s)
     const fed *pairs = fed_pairs[p->single];
     score theirs;
     start_score(&theirs, PENETRATION);
-    ask_peer(p, PENETRATION, pairs, (int)s->pairs, 0, replies);
+    ask_peers(&p, 1, PENETRATION, pairs, (int)s->pairs, 0, &replies);
     for (long i = 0; i < s->pairs; i++) {
         if (replies[i].outcome != NOT_ASKED && !(pairs[i].lower > 0)) {
             judge_answer(&theirs, p, &pairs[i], &replies[i], i);
