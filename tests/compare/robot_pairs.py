@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Writes the pairs of a scene as a block of the binary file that the bench reads; tests/compare/pair_file.h says how.
 
-    robot_pairs.py SCENE.json PAIRS >>FILE     so many of its pairs, spread evenly over them all
+    robot_pairs.py SCENE.json PAIRS FILE     appended: so many of its pairs, spread evenly over them all
 """
 
 import json
@@ -42,20 +42,20 @@ def head(name, pairs):
     return struct.pack("=48s16s16s7i", name, b"scene", b"", 3, 0, questions, pairs, 0, 0, 0)
 
 
-def main(path, limit):
-    with open(path, encoding="utf-8") as file:
-        scene = json.load(file)
+def main(path, limit, file):
+    with open(path, encoding="utf-8") as text:
+        scene = json.load(text)
     bodies = {body["name"]: packed(scene["shapes"][body["shape"]], body["pose"]) for body in scene["bodies"]}
     pairs = scene["pairs"]
     count = min(limit, len(pairs))
-    out = sys.stdout.buffer
-    out.write(head(b"robot", count))
-    for i in range(count):
-        a, b = pairs[i * len(pairs) // count]
-        out.write(bodies[a] + bodies[b])
+    with open(file, "ab") as out:
+        out.write(head(b"robot", count))
+        for i in range(count):
+            a, b = pairs[i * len(pairs) // count]
+            out.write(bodies[a] + bodies[b])
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__)
-    main(sys.argv[1], int(sys.argv[2]))
+    main(sys.argv[1], int(sys.argv[2]), sys.argv[3])
