@@ -23,7 +23,7 @@
 #define NOT_THERE HUGE_VAL /* printed as null */
 #define VALUE_ERROR 4.0    /* of ours, of bodies with corners, in u * scale */
 #define NORMAL_EXCESS 16.0
-#define MOST_DEADLY 20
+#define MOST_DEADLY 20   /* one pair in so many: who crashes or hangs on more is not timed */
 #define LONGEST_SHOWN 64 /* points of an example */
 
 static const char *const question_name[QUESTIONS] = {"distance", "intersect", "penetration"};
@@ -116,8 +116,7 @@ static long count_safe;
 
 static int is_deadly(const entry *e, int i) { return e->replies[i].outcome > GAVE_UP; }
 
-/* Who crashes or hangs on more than one pair in so many is not timed; pairs on which any other does are timed of no
- * one. */
+/* The pairs on which no one dies who is timed. */
 static void find_safe(void)
 {
     for (int k = 0; k < count_asked; k++) {

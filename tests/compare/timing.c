@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200112L /* clock_gettime */
 #include "timing.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -15,7 +16,7 @@
 #endif
 
 #define LEAST_ROUND 50e-6 /* seconds */
-#define CLOCK 1e-6        /* more than a look at it takes */
+#define SHORTEST 1e-6     /* a pass is not taken for shorter */
 
 int ask_nothing(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
 {
@@ -79,8 +80,19 @@ double median(double *x, long count)
     return count ? (x[(count - 1) / 2] + x[count / 2]) / 2 : 0;
 }
 
+/* What two looks at the clock see between them when nothing is done. */
+static double find_look(void)
+{
+    double least = HUGE_VAL;
+    for (int k = 0; k < 1000; k++) {
+        double start = seconds();
+        least = fmin(least, seconds() - start);
+    }
+    return least;
+}
+
 /* Of so many passes, the seconds each. What is kept in mind is forgotten before each, off the clock. */
-static double time_passes(const run *r, long pairs, long passes)
+static double time_passes(const run *r, long pairs, long passes, double look)
 {
     double sum = 0;
     long at_once = r->memory ? 1 : passes;
@@ -91,7 +103,7 @@ static double time_passes(const run *r, long pairs, long passes)
         for (long i = 0; i < at_once; i++) {
             pass(r, pairs);
         }
-        sum += seconds() - start;
+        sum += seconds() - start - look;
     }
     return sum / (double)passes;
 }
@@ -102,12 +114,13 @@ void time_runs(run *runs, int count, long pairs, long rounds)
 {
     double *ns = calloc((size_t)(count * rounds), sizeof *ns);
     long *passes = calloc((size_t)count, sizeof *passes);
+    double look = find_look();
     for (int k = 0; k < count && ns && passes; k++) {
-        passes[k] = 1 + (long)(LEAST_ROUND / (time_passes(&runs[k], pairs, 1) + CLOCK));
+        passes[k] = 1 + (long)(LEAST_ROUND / fmax(time_passes(&runs[k], pairs, 1, look), SHORTEST));
     }
     for (long round = 0; round < rounds && ns && passes; round++) {
         for (int k = 0; k < count; k++) {
-            ns[k * rounds + round] = time_passes(&runs[k], pairs, passes[k]) * 1e9 / (double)pairs;
+            ns[k * rounds + round] = time_passes(&runs[k], pairs, passes[k], look) * 1e9 / (double)pairs;
         }
     }
     for (int k = 0; k < count && ns; k++) {
