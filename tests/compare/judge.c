@@ -39,14 +39,14 @@ static void truth_of(enum question question, const fed *f, quad *low, quad *high
 }
 
 /* What the answer itself leaves open: the width of its bracket, or what its setting lets it be off by. */
-static quad allowed(const peer *p, const reply *r)
+static quad allowed(enum question question, const peer *p, const reply *r)
 {
-    return p->proves ? (quad)r->answer.upper - (quad)r->answer.lower : (quad)p->tolerance;
+    return p->proves ? (quad)r->answer.upper - (quad)r->answer.lower : (quad)p->tolerance[question];
 }
 
 static int misses(const peer *p, const fed *f, const reply *r)
 {
-    quad open = p->proves ? allowed(p, r) : 0;
+    quad open = p->proves ? allowed(PENETRATION, p, r) : 0;
     return -f->upper > larger(rounding_of(f, p->single), open) && !(r->answer.meet == 1 && r->answer.depth > 0);
 }
 
@@ -74,7 +74,7 @@ static enum failure failure_of(enum question question, const peer *p, const fed 
 
 static int is_wrong_verdict(const peer *p, const fed *f, const reply *r)
 {
-    quad near = larger(rounding_of(f, p->single), (quad)p->tolerance);
+    quad near = larger(rounding_of(f, p->single), (quad)p->tolerance[INTERSECT]);
     return r->answer.meet == 1 ? f->lower > near : r->answer.meet == 0 && -f->upper > near;
 }
 
@@ -93,7 +93,7 @@ static void judge_length(judgement *j, enum question question, const peer *p, co
     size = larger(low, -high);
     j->error = (double)(error / f->scale);
     j->relative = (double)(error / (size > rounding ? size : f->scale));
-    j->wrong = j->relative > WRONG && error > rounding && error > allowed(p, r);
+    j->wrong = j->relative > WRONG && error > rounding && error > allowed(question, p, r);
 }
 
 static void judge_normal(judgement *j, const fed *f, const reply *r)
@@ -128,7 +128,7 @@ static judgement judged(enum question question, const peer *p, const fed *f, con
         judge_length(&j, question, p, f, r);
     }
     if (p->proves) {
-        j.promised = (double)(allowed(p, r) / f->scale);
+        j.promised = (double)(allowed(question, p, r) / f->scale);
         j.wrong |= is_false(question, f, r);
     }
     if (question == PENETRATION && -f->upper > rounding_of(f, p->single)) {

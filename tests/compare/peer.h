@@ -44,13 +44,13 @@ typedef int peer_query(const struct peer *p, const void *a, const void *b, void 
 
 typedef struct peer {
     const char *library;
-    const char *knob;    /* what is set: "tolerance", "steps", "tight"; "none" */
-    double setting;      /*   to this */
-    int usual;           /* 1: as its documentation has it; of ours: without options */
-    size_t memory;       /* of bytes, 0 at first, that it keeps of a pair from query to query; 0: each starts cold */
-    double tolerance;    /* what the setting lets its answers be off by, in lengths; of one that proves: 0 */
-    const char *version; /* and where it is from */
-    const char *how[QUESTIONS]; /* it is asked: functions, fixed settings; "": not at all */
+    const char *knob; /* what is set: "tolerance", "steps", "tight"; "none" */
+    double setting;   /*   to this */
+    int usual;        /* 1: as its documentation has it; of ours: without options */
+    size_t memory;    /* of bytes, 0 at first, that it keeps of a pair from query to query; 0: each starts cold */
+    double tolerance[QUESTIONS]; /* what the setting lets its answers be off by, in lengths; of one that proves: 0 */
+    const char *version;         /* and where it is from */
+    const char *how[QUESTIONS];  /* it is asked: functions, fixed settings; "": not at all */
     int dim;
     int single;      /* 1: float, 0: double */
     int proves;      /* 1: gives a bracket */

@@ -234,14 +234,16 @@ const peer *gjk_peers(int *count)
         for (int k = 0; k < (int)(sizeof tolerances / sizeof *tolerances); k++) {
             peer *p = add(mpr, tolerance, tolerances[k]);
             p->usual = k == 0;
-            p->tolerance = tolerances[k];
+            p->tolerance[PENETRATION] = tolerances[k];
+            p->tolerance[INTERSECT] = mpr ? tolerances[k] : 0;
             if (mpr || k == 0) {
                 p->query[INTERSECT] = mpr ? meet_by_mpr : meet_by_gjk;
             }
         }
         for (int k = 0; k < (int)(sizeof iterations / sizeof *iterations); k++) {
             peer *p = add(mpr, steps, iterations[k]);
-            p->tolerance = tolerances[0];
+            p->tolerance[PENETRATION] = tolerances[0];
+            p->tolerance[INTERSECT] = mpr ? tolerances[0] : 0;
             p->query[INTERSECT] = mpr ? meet_by_mpr : meet_by_gjk;
         }
     }

@@ -182,7 +182,7 @@ peer setting(bool own, double value, size_t memory)
     peer p = peer();
     p.library = own ? own_name : "FCL";
     p.knob = tolerance;
-    p.setting = p.tolerance = value;
+    p.setting = p.tolerance[DISTANCE] = p.tolerance[INTERSECT] = p.tolerance[PENETRATION] = value;
     p.usual = value == 1e-6; /* as it comes */
     p.memory = memory;
     p.version = PEER_VERSION;
