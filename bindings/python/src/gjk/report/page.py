@@ -14,22 +14,18 @@ from .scene import Scene
 from .table import Report, Row
 from .terminal import figure
 
-__all__ = ["write"]
+__all__ = ["COLOURS", "CSS", "write"]
 
-PAGE = Template(
-    """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>$name: error against run time</title>
-<style>
+COLOURS = """\
 :root { --ink: #1b1f24; --soft: #59636e; --rule: #d1d9e0; --page: #ffffff; --card: #f6f8fa;
         --true: #0072b2; --promised: #d55e00; --bad: #b3261e; }
 @media (prefers-color-scheme: dark) {
   :root { --ink: #e6edf3; --soft: #9aa6b2; --rule: #3a434d; --page: #0f1318; --card: #181e25;
           --true: #56b4e9; --promised: #f0a04b; --bad: #ff8a80; } }
+"""
+CSS = (
+    COLOURS
+    + """\
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 68rem; padding: 2rem 1rem 4rem; background: var(--page); color: var(--ink);
        font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", Roboto, sans-serif; }
@@ -64,7 +60,20 @@ th[colspan] { text-align: center; color: var(--c); }
 tbody tr.full td { font-weight: 600; background: var(--card); }
 tr.next td { border-top: 1px solid var(--rule); }
 footer { margin-top: 3rem; font-size: .85rem; border-top: 1px solid var(--rule); padding-top: 1rem; }
-</style>
+"""
+)
+"""Of this page and others."""
+
+PAGE = Template(
+    """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>$name: error against run time</title>
+<style>
+$css</style>
 </head>
 <body>
 <header>
@@ -116,6 +125,7 @@ KINDS = {"rel_tol": "by tolerance asked", "max_steps": "by steps allowed"}
 def write(path: Path, scene: Scene, reports: list[Report]) -> None:
     path.write_text(
         PAGE.substitute(
+            css=CSS,
             name=escape(scene.name),
             lead=_lead(scene, reports),
             cards="\n".join(_cards(reports)),

@@ -3,15 +3,12 @@
 
 from __future__ import annotations
 
-import io
-import math
-import re
 from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
+from .drawing import STYLE, decades, power, svg
 from .table import Report, Row
 
 __all__ = ["FLOOR", "ladder", "promise"]
@@ -19,28 +16,8 @@ __all__ = ["FLOOR", "ladder", "promise"]
 FLOOR = 0.01
 """What is smaller is drawn here: a logarithm has no place for 0."""
 
-# matplotlib is given these colours; in the SVG each becomes a variable of the page, light or dark.
-INK, RULE, TRUE, PROMISED = "#010101", "#020202", "#030303", "#040404"
-VARIABLES = {INK: "ink", RULE: "rule", TRUE: "true", PROMISED: "promised"}
-
-STYLE: dict[Any, Any] = {
-    "svg.fonttype": "none",
-    "svg.hashsalt": "gjk",
-    "font.size": 9,
-    "text.color": INK,
-    "axes.labelcolor": INK,
-    "axes.edgecolor": RULE,
-    "xtick.color": RULE,
-    "ytick.color": RULE,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "grid.color": RULE,
-    "grid.linewidth": 0.6,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-}
+TRUE, PROMISED = "#030303", "#040404"
+VARIABLES = {TRUE: "true", PROMISED: "promised"}
 SIZE = (4.6, 3.4)  # inches, so that letters keep their size on a phone
 MARKED = {1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 0.0, 1, 2, 4, 8, 16}
 
@@ -59,11 +36,11 @@ def ladder(report: Report, kind: str, ymax: float) -> str:
             axes.plot(ns, _line(rows, which, 1), color=colour, linewidth=1.8, marker=marker, markersize=3.8)
         _name_rungs(axes, rows)
         axes.set_yscale("log")
-        _decades(axes.yaxis, FLOOR, ymax)
+        decades(axes.yaxis, FLOOR, ymax, name=_tick)
         axes.set_ylim(FLOOR / 1.8, ymax)
         _time_axis(axes, max(row.ns for row in report.rows if row.level.kind in ("rel_tol", "max_steps")))
         axes.set_ylabel("u · scale")
-        return _svg(figure, f"{report.precision}-{kind}")
+        return svg(figure, f"{report.precision}-{kind}", VARIABLES)
 
 
 def _line(rows: list[Row], which: str, i: int) -> list[float]:
@@ -78,7 +55,7 @@ def _name_rungs(axes: Any, rows: list[Row]) -> None:
         if setting not in MARKED or row.ns > 0.93 * last:
             continue
         last = row.ns
-        text = "full" if setting == 0 else f"{setting:.0f}" if row.level.kind == "max_steps" else _power(setting)
+        text = "full" if setting == 0 else f"{setting:.0f}" if row.level.kind == "max_steps" else power(setting)
         at = (row.ns, max(row.width.max, FLOOR))
         axes.annotate(text, at, (3, 3), textcoords="offset points", ha="left", va="bottom", fontsize=8)
 
@@ -96,13 +73,13 @@ def promise(report: Report) -> str:
         axes.annotate("true = promised", (most, most), (-4, -40), textcoords="offset points", ha="right", fontsize=8)
         axes.set_xscale("log")
         axes.set_yscale("log")
-        _decades(axes.xaxis, low, most, (1, 2, 5))
-        _decades(axes.yaxis, FLOOR, most)
+        decades(axes.xaxis, low, most, (1, 2, 5), name=_tick)
+        decades(axes.yaxis, FLOOR, most, name=_tick)
         axes.set_xlim(low, most)
         axes.set_ylim(FLOOR / 1.5, most)
         axes.set_xlabel("error promised, u · scale")
         axes.set_ylabel("true error, u · scale")
-        return _svg(figure, f"{report.precision}-promise")
+        return svg(figure, f"{report.precision}-promise", VARIABLES)
 
 
 def _dots(row: Row, count: int = 1200) -> tuple[list[float], list[float]]:
@@ -115,39 +92,11 @@ def _dots(row: Row, count: int = 1200) -> tuple[list[float], list[float]]:
     return [w for w, _ in chosen], [e for _, e in chosen]
 
 
-def _decades(axis: Any, low: float, high: float, parts: tuple[int, ...] = (1,)) -> None:
-    """Decades as ticks, at most eight of them; where there are less than three, their parts too."""
-    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-    step = max(1, -(-(last - first) // 7))
-    ticks = [part * 10.0**k for k in range(first, last + 1, step) for part in (parts if last - first < 3 else (1,))]
-    axis.set_major_locator(FixedLocator(ticks))
-    axis.set_major_formatter(FuncFormatter(lambda x, _: "0" if x <= FLOOR else _power(x)))
-    axis.set_minor_locator(NullLocator())
-
-
 def _time_axis(axes: Any, most: float) -> None:
     """Linear and from 0, so that what is noise looks like noise."""
     axes.set_xlim(0, 1.12 * most)
     axes.set_xlabel("ns per query")
 
 
-def _power(x: float) -> str:
-    if 1 <= x < 1000:
-        return f"{x:g}"
-    k = round(math.log10(x))
-    return "10" + str(k).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-
-
-def _svg(figure: Figure, prefix: str) -> str:
-    """The figure as an svg element: transparent, in the page's colours, its ids its own."""
-    out = io.StringIO()
-    figure.savefig(out, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
-    text = out.getvalue()
-    text = text[text.index("<svg") :]
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-    text = re.sub(r'( id="|"#|url\(#)', rf"\g<1>{prefix}-", text)
-    for name in ("width", "height"):
-        text = re.sub(rf'(<svg[^>]*?) {name}="[^"]*"', r"\1", text, count=1)
-    for colour, name in VARIABLES.items():
-        text = text.replace(colour, f"var(--{name})")
-    return text
+def _tick(x: float) -> str:
+    return "0" if x <= FLOOR else power(x)
