@@ -20,6 +20,8 @@ cmake -S . -B $build -DCMAKE_BUILD_TYPE=Release -DGJK_COMPARE_CARGO=ON \
     "-DGJK_COMPARE_LIBCCD=${GJK_COMPARE_LIBCCD:-}" >$build.log 2>&1 || { cat $build.log; exit 2; }
 grep '^-- Peer' $build.log
 cmake --build $build --parallel "$(nproc)" --target comparison >$build.log 2>&1 || { cat $build.log; exit 2; }
+python3 -m venv $build/venv # first what may be missing, then the long work
+$build/venv/bin/pip install -q './bindings/python[report]'
 
 bench() { # PAIRS_FILE ROUNDS RESULTS [COMMAND...]
     file=$1 rounds_here=$2 results=$3
@@ -36,6 +38,6 @@ else
     echo 'valgrind is not installed: instructions are not counted'
 fi
 # shellcheck disable=SC2086 # arguments
-python3 tests/compare/comparison.py --command "sh tests/compare/comparison.sh $pairs $rounds $seed" $counted \
+$build/venv/bin/python tests/compare/comparison.py --command "sh tests/compare/comparison.sh $pairs $rounds $seed" $counted \
     -o "$folder/comparison.md" --html build/comparison/index.html --plot "$folder/comparison.svg" \
     $out/comparison.jsonl

@@ -7,11 +7,11 @@ Ends with 1 where the library failed; the page is written even so.
 import argparse
 import json
 import os
-import platform
 import re
-import struct
 import sys
 import time
+
+from pages.writing import case_text, line, machine, rule, short, small
 
 VARIANTS = {
     "gjk2": "2-D, double",
@@ -70,28 +70,6 @@ The peers, in scales, not in u: the largest error of a depth, the largest excess
 off by more than a hundredth of themselves, and how many answers failed: *missed* an overlap that is deeper than
 rounding, or gave it no depth above 0; gave *no normal* of length 1; or none at all.
 """
-
-
-def short(x):
-    """A number to two digits; of what is far below 1 only that it is."""
-    if x is None:
-        return "∞"
-    if x == 0:
-        return "0"
-    if x < 0.01:
-        return "<0.01"
-    if x < 9999.5:
-        return f"{x:.2g}" if x < 99.5 else f"{x:.0f}"
-    mantissa, exponent = f"{x:.1e}".split("e")
-    return f"{mantissa}e{int(exponent)}"
-
-
-def small(x):
-    """The same of what may be far below 1."""
-    if x is None:
-        return "∞"
-    mantissa, exponent = f"{x:.1e}".split("e")
-    return "0" if x == 0 else short(x) if 0.01 <= x < 9999.5 else f"{mantissa}e{int(exponent)}"
 
 
 class Results:
@@ -180,14 +158,6 @@ def depth_cell(row, pairs):
     if bad:
         text += ": " + ", ".join(bad)
     return text if row["asked"] == pairs else f"{text} (of {row['asked']})"
-
-
-def line(cells):
-    return "| " + " | ".join(cells) + " |"
-
-
-def rule(count, words=1):
-    return "|" + "---|" * words + "--:|" * (count - words)
 
 
 OURS = ["pairs", "failures", "violations", "error", "width", "tight error", "tight width", "calls"]
@@ -335,33 +305,6 @@ def worst_rows(rows):
     return picked[:3]
 
 
-def as_float(x):
-    """The shortest decimal that is the same float."""
-    single = struct.pack("<f", x)
-    for digits in range(1, 10):
-        y = float(f"{x:.{digits}g}")
-        if abs(y) <= 3.4028234e38 and struct.pack("<f", y) == single:
-            return y
-    return x
-
-
-def shape_of(body, dim, single):
-    identity = [float(i == j) for i in range(dim) for j in range(dim + 1)]
-    shape = {k: v for k, v in body.items() if not (k == "pose" and v == identity)}
-    if single:
-        shape["points"] = [[as_float(x) for x in p] for p in shape["points"]]
-        if "radius" in shape:
-            shape["radius"] = as_float(shape["radius"])
-    return shape
-
-
-def case_text(case, peer):
-    case = dict(case, precision="float" if peer["single"] else "double")
-    for k in "ab":
-        case[k] = shape_of(case[k], case["dim"], peer["single"])
-    return json.dumps(case, separators=(",", ":"))
-
-
 def truth_text(example):
     low, high = example["lower"], example["upper"]
     if low > 0:
@@ -432,7 +375,7 @@ def examples(results):
             )
             yield ""
             yield "```json"
-            yield case_text(example["case"], peer)
+            yield case_text(example["case"], peer["single"])
             yield "```"
 
 
@@ -447,16 +390,6 @@ def families(names):
     for name in names:
         text = " ".join(about.get(name.upper().replace(" ", "_"), "as above").split())
         yield line([name, text])
-
-
-def machine():
-    model = ""
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as lines:
-            model = next((x.split(":")[1].strip() + ", " for x in lines if x.startswith("model name")), "")
-    except OSError:
-        pass
-    return f"{model}{platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
 
 
 def peer_table(peers, missing, asked=("how", "how_deep")):

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""How the pages on comparison are written."""

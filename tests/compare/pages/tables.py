@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: MIT
+"""What the comparison says in numbers and in words; all of it is computed."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .measured import Place, mean_ratio
+from .writing import sentence, small
+
+NONE = "–"
+UNIT = {"double": 2.0**-53, "float": 2.0**-24}  # of roundoff
+
+
+class Table(NamedTuple):
+    columns: list[str]
+    rows: list[list[str]]
+    words: int = 1
+    """How many columns hold words, not numbers."""
+
+
+def peers(measured):
+    """Everyone with version and settings."""
+    rows = []
+    for p in measured.peers.values():
+        how = "; ".join(dict.fromkeys(p[k] for k in ("how", "how_meet", "how_deep") if p.get(k)))
+        rows.append([p["name"], p["version"], f"{p['dim']}-D, {'float' if p['single'] else 'double'}", how])
+    rows += [[name, "missing: not installed", "", ""] for name in measured.missing]
+    return Table(["library", "version", "numbers", "asked by, at the settings that it comes with"], rows, 4)
+
+
+def ns(x):
+    return NONE if x is None else f"{x:.0f}"
+
+
+def ratio(x):
+    return NONE if x is None else f"{x:.2f}"
+
+
+def size(x):
+    return NONE if x is None else small(x)
+
+
+def _libraries(places, warm=False):
+    """Who took part at its default, in order, save ours that the others are held against."""
+    return list(dict.fromkeys(a.library for p in places for a in p.defaults(warm) if a is not p.ours(warm)))
+
+
+def _theirs(places, warm):
+    return list(dict.fromkeys(a.library for p in places for a in p.theirs(warm)))
+
+
+def times(places, warm=False):
+    """Of each class what ours takes, and what everyone takes divided by that: by time, by instructions."""
+    places = [p for p in places if p.ours(warm)]
+    others = _libraries(places, warm)
+    rows = []
+    for p in places:
+        ours, cells = p.ours(warm), []
+        for name in others:
+            a = p.default(name, warm)
+            cell = ratio(a.ratio(ours)) if a else NONE
+            cells.append(f"{cell}, {ratio(a.instruction_ratio(ours))}" if a and a.instruction_ratio(ours) else cell)
+        rows.append([p.title, ns(ours.median), ns(ours.instructions), *cells])
+    return Table(["", "ours: ns", "instructions", *(f"{name} ÷ ours" for name in others)], rows)
+
+
+def _error(a):
+    if a is None:
+        return NONE
+    sizes = ", ".join(small(x) for x in (a.max_error, a.excess) if x is not None)
+    bad = ", ".join(f"{count} {word}" for count, word in ((a.wrong, "wrong"), (a.failed, "failed")) if count)
+    return ": ".join(text for text in (sizes, bad) if text) or "0"
+
+
+def errors(places):
+    """Of each class the largest error of everyone, and how many answers are wrong or failed."""
+    others = _libraries(places)
+    rows = [[p.title, _error(p.ours()), *(_error(p.default(name)) for name in others)] for p in places]
+    return Table(["", "ours", *others], rows)
+
+
+def settings(place):
+    """Everyone at every setting."""
+    columns = ["library", "setting", "ns: least", "median", "÷ ours", "instructions", "÷ ours", "support calls"]
+    columns += ["error: largest", "median", "excess", "promised", "wrong", "failed"]
+    rows = []
+    for a in sorted(place.answers, key=lambda a: not a.is_ours):
+        ours = place.ours(a.warm)
+        setting = "" if a.knob == "none" else a.knob if a.knob == "tight" else f"{a.knob} {a.setting}"
+        rows.append([a.name, setting + (" (default)" if a.default and setting else "")])
+        rows[-1] += [ns(a.least), ns(a.median), ratio(a.ratio(ours))]
+        rows[-1] += [ns(a.instructions), ratio(a.instruction_ratio(ours))]
+        rows[-1] += [NONE if a.supports is None else f"{a.supports:.1f}"]
+        rows[-1] += [size(x) for x in (a.max_error, a.median_error, a.excess, a.promised)]
+        rows[-1] += [str(a.wrong), str(a.failed)]
+    return Table(columns, rows, 2)
+
+
+def about(place):
+    text = f"{place.pairs} pairs"
+    if place.truth_width > 1e-20:
+        text += f"; the truth is known to {small(place.truth_width)} scales"
+    if place.timed != place.pairs:
+        text += f"; {place.pairs - place.timed} on which one crashes or hangs are left out of the times of all"
+    return text + "."
+
+
+# ---- where ours is not first ----
+
+
+class Rival(NamedTuple):
+    place: Place
+    ours: object
+    theirs: object
+
+
+def _rivals(places, library, warm):
+    both = [Rival(p, p.ours(warm), p.default(library, warm)) for p in places]
+    return [r for r in both if r.ours and r.theirs]
+
+
+def not_first(measured):
+    """Of each question the libraries that are faster or more exact than ours somewhere, and where."""
+    for ask in measured.asks():
+        places = measured.of(ask)
+        lines = [text for warm in (False, True) for name in _theirs(places, warm)
+                 for text in _rival_texts(name, _rivals(places, name, warm), warm)]  # fmt: skip
+        alone = (
+            "Ours is the fastest and the most exact in every class."
+            if _theirs(places, False)
+            else "No one else answers."
+        )
+        yield ask.title, lines or [alone]
+
+
+def _rival_texts(library, rivals, warm):
+    name = f"{library}, warm," if warm else library
+    faster = [r for r in rivals if (r.theirs.ratio(r.ours) or 1) < 1]
+    if faster:
+        text = f"{name} is faster in {len(faster)} of {len(rivals)} classes ({_span(_ratios(faster))} of our time)"
+        sound = [r for r in faster if not r.theirs.bad and not _less_exact(r)]
+        if len(sound) < len(faster):
+            text += f"; in {len(faster) - len(sound)} of these with larger errors, or wrong or failed answers"
+        if sound:
+            text += f"; as right and exact as ours and faster in {_places(sound, lambda own: _span(_ratios(own)))}"
+        yield text + "."
+    exacter = [r for r in rivals if _is_exacter(r)]
+    if exacter:
+        yield (
+            f"{name} is more exact in {len(exacter)} of {len(rivals)} classes (largest error, theirs to ours; the"
+            f" worst for us): {_places(exacter, _errors_where_most)}."
+        )
+    righter = [r for r in rivals if r.theirs.bad < r.ours.bad]
+    if righter:
+        yield f"{name} has fewer wrong or failed answers in {_places(righter, lambda own: f'{own[0].theirs.bad}')}."
+
+
+def _ratios(rivals):
+    return [r.theirs.ratio(r.ours) for r in rivals]
+
+
+def _span(ratios):
+    low, high = f"{min(ratios):.2f}", f"{max(ratios):.2f}"
+    return low if low == high else f"{low} to {high}"
+
+
+def _errors_where_most(rivals):
+    most = max(rivals, key=lambda r: r.ours.max_error - r.theirs.max_error)
+    return f"{size(most.theirs.max_error)} to {size(most.ours.max_error)}"
+
+
+def _places(rivals, what):
+    """By class; how many states where there are several."""
+    by_name = {}
+    for r in rivals:
+        by_name.setdefault(r.place.name, []).append(r)
+    parts = []
+    for name, own in by_name.items():
+        state = own[0].place.state if len(own) == 1 else f"{len(own)} states"
+        parts.append(f"{name}, {state} ({what(own)})")
+    return "; ".join(parts)
+
+
+def _has_errors(r):
+    return r.theirs.max_error is not None and r.ours.max_error is not None
+
+
+def _less_exact(r):
+    return _has_errors(r) and r.theirs.max_error > max(r.ours.max_error, 4 * UNIT[r.place.ask.precision])
+
+
+def _is_exacter(r):
+    return _has_errors(r) and not r.theirs.bad and r.theirs.max_error < r.ours.max_error
+
+
+# ---- marks ----
+
+
+class Mark(NamedTuple):
+    """How many times what ours takes these are to take, everywhere."""
+
+    text: str
+    factor: float
+    ratios: object
+    """Of a place: ratios with the name of the library."""
+
+
+def _against(family, keep=lambda place: True, warm=False):
+    def ratios(place):
+        rivals = [a for a in place.theirs(warm) if a.library.startswith(family)] if keep(place) else []
+        found = [(a.ratio(place.ours(warm)), a.library) for a in rivals]
+        return [(ratio, name) for ratio, name in found if ratio]
+
+    return ratios
+
+
+def _fastest_sound(place):
+    """Of those in double that answer everything, and err by no more than roundings."""
+    if (place.ask.dim, place.ask.precision) != (3, "double") or place.name not in SHARP:
+        return []
+    sound = [a for a in place.theirs() if not a.bad and (a.max_error is None or a.max_error < 1e-14)]
+    found = [(a.ratio(place.ours()), a.library) for a in sound]
+    return sorted((ratio, name) for ratio, name in found if ratio)[:1]
+
+
+SHARP = ("boxes", "hulls of 8", "hulls of 16", "hulls of 64")
+
+
+def _float_polygons(place):
+    return place.ask == ("distance", 2, "float") and place.name == "polygons"
+
+
+MARKS = [
+    Mark("3 times as fast as libccd, in every query that it has", 3, _against("libccd")),
+    Mark("level with Box2D 3 on polygons in float", 1, _against("Box2D 3", _float_polygons)),
+    Mark("1.3 times as fast as Box2D 3 on these when both are warm", 1.3, _against("Box2D 3", _float_polygons, True)),
+    Mark("level with the fastest sound library in double on boxes and hulls of 8 to 64", 1, _fastest_sound),
+]
+
+
+def marks(measured):
+    """What the library is to reach, and what it does."""
+    rows = [_mark_row(mark, measured) for mark in MARKS]
+    return Table(["ours is to be", "reached in", "mean", "least"], [*rows, _error_row(measured)], 4)
+
+
+def _mark_row(mark, measured):
+    found = [(r, f"{name}: {_spelled(p)}") for p in measured.places for r, name in mark.ratios(p)]
+    if not found:
+        return [mark.text, "not measured", NONE, NONE]
+    met = sum(r >= mark.factor for r, _ in found)
+    least, where = min(found)
+    return [mark.text, f"{met} of {len(found)}", ratio(mean_ratio([r for r, _ in found])), f"{ratio(least)}: {where}"]
+
+
+def _error_row(measured):
+    """Whether in each class everyone's largest error is at least ours."""
+    text = "as exact as whoever is most exact, of those that are neither wrong nor fail"
+    places = [
+        [r for a in p.theirs() for r in _rivals([p], a.library, False) if _has_errors(r)] for p in measured.places
+    ]
+    places = [rivals for rivals in places if rivals]
+    lost = [r for rivals in places for r in rivals if _is_exacter(r)]
+    if not lost:
+        return [text, f"{len(places)} of {len(places)}", NONE, NONE]
+    met = sum(not any(map(_is_exacter, rivals)) for rivals in places)
+    most = max(lost, key=lambda r: r.ours.max_error - r.theirs.max_error)
+    where = f"{most.theirs.library}: {_spelled(most.place)}"
+    return [text, f"{met} of {len(places)}", NONE, f"{_errors_where_most([most])}: {where}"]
+
+
+def _spelled(place):
+    return f"{place.ask.title}: {place.title}"
+
+
+# ---- answers that are wrong ----
+
+
+def counts(measured):
+    """Of each library how many of all its answers at its defaults are wrong or failed."""
+    rows = []
+    for library in measured.libraries:
+        own = [a for p in measured.places for a in p.answers if a.library == library and a.default]
+        if own:
+            rows.append([library, *(str(sum(getattr(a, k) for a in own)) for k in ("asked", "wrong", "failed"))])
+    return Table(["library", "answers", "wrong", "failed"], rows)
+
+
+def examples(measured, most=2, length=1500):
+    """Of each library up to two pairs that it answers wrong at its defaults, short ones, of different classes."""
+    for library in measured.libraries:
+        picked = {}
+        for p in measured.places:
+            a = p.default(library)
+            if a and a.bad and a.example and len(str(a.example)) <= length:
+                picked.setdefault(p.name, (p, a))
+        worst = sorted(picked.values(), key=lambda pa: -pa[1].bad)[:most]
+        if worst:
+            yield library, worst
+
+
+SILENCES = {
+    "gave_up": "gives no answer",
+    "crashed": "crashes",
+    "hung": "does not come back",
+    "no_normal": "gives no normal",
+    "undecided": "does not decide",
+}
+
+
+def said(place, a):
+    """The truth of an example, and what the library said instead."""
+    if a.failure in SILENCES:
+        says = SILENCES[a.failure]
+    elif place.ask.question == "intersect":
+        says = f"says that they {'meet' if a.said else 'do not meet'}"
+    else:
+        says = f"says {_separation(a.said)}"
+    return f"{sentence(_spelled(place))}. They are {_separation(a.truth)}; {a.library} {says}."
+
+
+def _separation(x):
+    return f"apart by {x:.9g}" if x > 0 else f"overlapping by {-x:.9g}" if x < 0 else "touching"

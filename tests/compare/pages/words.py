@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""The words that the comparison's pages have in common, in Markdown without links."""
+
+import time
+
+from .writing import machine
+
+LEAD = """\
+How exact gjk and other libraries are on everyday pairs of bodies, and what that costs: the same pairs for all, every
+answer judged by exact truth."""
+PLOT = "Largest error against run time of gjk and other libraries, each through its settings"
+MARKS = """\
+What the library is to reach, everyone at its defaults, each class and state of pairs for itself. Mean (geometric) and
+least are of theirs ÷ ours, the median time that they take divided by ours: above 1 they are slower. In the last row
+they are largest errors, theirs to ours. Sound is who answers all right and errs by no more than 1e-14 scales."""
+NOT_FIRST = """\
+Everyone at its defaults. Faster is by median time; more exact by the largest error of a class, of those who have no
+wrong and no failed answer in it. Among the faster, who is off by no more than 4 roundings of the scale counts as
+exact."""
+COUNTS = "Of all answers at the defaults, cold and warm."
+TIMES = """\
+Ours: nanoseconds (median) and, where they were counted, instructions an answer. Of the others what each takes divided
+by that: by time, by instructions."""
+WARM = "The same with caches kept along a path of small steps."
+ERRORS = "Largest error, in scales, of a depth then the largest excess; then how many answers are wrong or failed."
+VERDICTS = "How many answers are wrong or failed."
+REPLAY = """\
+Of each library up to two pairs that it answers wrong, or not, at its defaults. The numbers are those that it was fed.
+`gjk query`, which comes with the Python package, says what ours answers: `echo 'CASE' | gjk query`."""
+HOW_TO_READ = """\
+Each class of pairs is drawn at random, from a seed. *Near* is how far apart the bodies are; *shallow* and *deep* ones
+overlap, *stacked* ones touch; along a *path* one body moves in small steps. Sizes are about 1, and the *scale* of a
+pair is its largest coordinate relative to a point between the bodies. An *error* is how far the distance, or the depth,
+is off the truth, in scales. The truth is exact: whole numbers of any length where the bodies are spelled by their
+corners, else a bracket of 113 bits. *Promised* is the width of the widest bracket that ours returned: the true error is
+never larger.
+
+An answer is *wrong* where a distance or depth is off by more than a hundredth of itself, by more than 4 roundings,
+and by more than its setting allows; a verdict that is wrong further from contact than that; and of ours, at any
+setting, a bracket without the truth in it. It *failed* where there was no number or no normal, where an overlap
+deeper than that was not seen, where no verdict came though contact is 300 roundings away, and where the process died
+or took more than a quarter of a second. The *excess* of a depth is how much further than the depth the second body
+must be moved along the normal that came back, at most."""
+FAIR = """\
+All libraries answer in one process, from the same file of pairs: in each round everyone in turn answers all pairs of
+the class. What asking costs by itself is measured with an empty call and taken off. Instructions are counted by
+callgrind, and do not depend on the machine's mood. All code that is compiled here is compiled with -O3; installed
+libraries are as their packagers compiled them. Settings are those that each library comes with or that its
+documentation advises, warm starts included; then its accuracy is swept through its tolerance or its number of steps.
+The peers' support functions are plain ones, as their manuals have them, and do the work that ours do. Who asks for less
+accuracy does less work. Libraries in double are asked about pairs in float, too, as they come; they find them easier.
+Ours proves its bracket, rounding included, in all of these times; the others return what they have got."""
+
+
+def head(measured):
+    """What was run, when and where."""
+    head = measured.head
+    made = f"{head['compiler']}{', ' + head['flags'] if head.get('flags') else ''}"
+    missing = f"Missing: {', '.join(measured.missing)}." if measured.missing else "No library is missing."
+    return (
+        f"{time.strftime('%Y-%m-%d', time.gmtime())}: gjk {head['version']}, {head['pairs']} pairs of each class and"
+        f" state, seed {head['seed']}, {head['rounds']} rounds; {made}; {machine()}. {missing}"
+    )
