@@ -33,6 +33,8 @@ look() {
     need libbox2d-dev pkg-config --exists box2d
     need cargo-web knows_crates # brings Box2D 3; Debian's plain cargo is too old
     need valgrind command -v valgrind
+    need chromium command -v chromium
+    need chromium-driver command -v chromedriver
     need python3-venv python3 -c 'import ensurepip, venv'
     need python3-dev python3 -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")'
 }
@@ -66,9 +68,9 @@ GJK_FUZZ_SEED=1 fuzz/run.sh 1 # the same each time: what is new is found by long
 
 say 'Python: setting up'
 python3 -m venv build/venv
-build/venv/bin/pip install -q './bindings/python[test]' -r examples/requirements.txt
+build/venv/bin/pip install -q './bindings/python[test]' -r examples/requirements.txt -r tests/compare/requirements.txt
 
-for tests in bindings/python/tests tests/oracle examples; do # one run each: pytest takes its settings from beside the tests
+for tests in bindings/python/tests tests/oracle tests/compare examples; do # one run each: pytest takes its settings from beside the tests
     say "Python: $tests"
     build/venv/bin/python -m pytest -q "$tests"
 done

@@ -1,0 +1,316 @@
+# SPDX-License-Identifier: MIT
+"""The comparison's page in a real browser: all is drawn, nothing overlaps, nothing is cut, on a phone, a desk, paper.
+
+The results are those of the small bench that ctest ran in build/release, or the files that GJK_COMPARE_RESULTS names.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections import Counter, defaultdict
+from pathlib import Path
+
+import pytest
+from pages import tables
+from pages.measured import Incomplete, Measured
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+
+HERE = Path(__file__).parent
+SMALL = HERE.parents[1] / "build/release/tests/compare"
+FLAGS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--disable-dev-shm-usage",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+MEDIA = {"phone": (360, "screen"), "desk": (1200, "screen"), "paper": (718, "print")}  # A4 with margins of a centimetre
+
+LOOK = """
+const box = e => { const r = e.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom] };
+return {
+    width: document.documentElement.scrollWidth,
+    loaded: [...document.querySelectorAll('*')].flatMap(e => ['src', 'href', 'xlink:href'].map(k => e.getAttribute(k)))
+        .filter(name => name && !name.startsWith('#') && !name.startsWith('data:')),
+    uncut: [...document.querySelectorAll('figure')].every(e => getComputedStyle(e).breakInside === 'avoid'),
+    tables: [...document.querySelectorAll('.table')].filter(e => e.offsetParent)
+        .map(e => e.scrollWidth - e.clientWidth),
+    figures: [...document.querySelectorAll('figure')].map(figure => ({
+        id: figure.id, box: box(figure),
+        drawn: [...figure.querySelectorAll('svg')].map(box),
+        curves: [...figure.querySelectorAll('svg [id*="-curve-"]')]
+            .map(e => [e.id, box(e), e.querySelectorAll('use').length]),
+        texts: [...figure.querySelectorAll('svg text')].map(e => [e.textContent, box(e)])
+    }))
+}"""
+
+
+def results():
+    named = os.environ.get("GJK_COMPARE_RESULTS", "").split()
+    return named or sorted(map(str, SMALL.glob("small.bench*.jsonl")))
+
+
+@pytest.fixture(scope="module")
+def rows():
+    found = results()
+    assert found, f"{SMALL} has no results: run ctest there first"
+    return [json.loads(line) for path in found for line in Path(path).read_text(encoding="utf-8").splitlines()]
+
+
+def write(folder, files):
+    """All that is written of some results."""
+    options = ["-o", folder / "comparison.md", "--html", folder / "index.html", "--plot", folder / "comparison.svg"]
+    subprocess.run([sys.executable, HERE / "comparison.py", *files, *options], check=True)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def made(rows, tmp_path_factory):
+    return write(tmp_path_factory.mktemp("made"), results())
+
+
+@pytest.fixture(scope="module")
+def few(rows):
+    """One class of pairs of each question, and all that is not of a class."""
+    first = {}
+    return [r for r in rows if "state" not in r or first.setdefault(asked(r)[:3], r["class"]) == r["class"]]
+
+
+@pytest.fixture(scope="module")
+def small(few, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("small")
+    path = folder / "few.jsonl"
+    path.write_text("".join(json.dumps(row) + "\n" for row in few), encoding="utf-8")
+    return write(folder, [path])
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    options = webdriver.ChromeOptions()
+    options.binary_location = shutil.which("chromium")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    for flag in [*FLAGS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"]:
+        options.add_argument(flag)
+    driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+    yield driver
+    driver.quit()
+
+
+def look(browser, page, medium):
+    """What the browser sees."""
+    width, media = MEDIA[medium]
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media})
+    browser.get_log("browser")  # what was there before
+    browser.get(page.as_uri())
+    browser.execute_script("return document.fonts.ready.then(() => null)")
+    return {**browser.execute_script(LOOK), "console": browser.get_log("browser")}
+
+
+def faults(seen, expected, medium):
+    """What is wrong with it; expected are the curves of each figure."""
+    width, media = MEDIA[medium]
+    yield from (f"console: {entry['message']}" for entry in seen["console"])
+    yield from (f"not self-contained: {name}" for name in seen["loaded"])
+    if seen["width"] > width:
+        yield f"wider than the page: {seen['width']}"
+    if media == "print":
+        yield from (f"a table is cut by {by}" for by in seen["tables"] if by > 0)
+        if not seen["uncut"]:
+            yield "figures may be cut"
+    figures = {figure["id"]: figure for figure in seen["figures"]}
+    if len(figures) != len(seen["figures"]):
+        yield "two figures have one name"
+    yield from (f"{name}: no such figure" for name in expected.keys() - figures.keys())
+    for name, figure in figures.items():
+        yield from (f"{name}: {text}" for text in figure_faults(figure, expected.get(name)))
+
+
+def figure_faults(figure, expected):
+    if len(figure["drawn"]) != 1 or is_empty(figure["drawn"][0]):
+        yield "not drawn"
+    yield from (f"{curve} is not seen" for curve, box, _ in figure["curves"] if is_empty(box))
+    drawn = {curve.split("-curve-")[1]: points for curve, _, points in figure["curves"]}
+    if expected is not None and drawn != expected:
+        yield f"curves are {drawn}, not {expected}"
+    if not figure["texts"]:
+        yield "no words"
+    for i, (text, box) in enumerate(figure["texts"]):
+        yield from (f"'{text}' is upon '{other}'" for other, place in figure["texts"][:i] if overlap(box, place))
+        if not contains(figure["box"], box):
+            yield f"'{text}' leaves the figure"
+
+
+def is_empty(box):
+    return box[2] - box[0] < 1 and box[3] - box[1] < 1
+
+
+def overlap(a, b):
+    return all(min(a[k + 2], b[k + 2]) - max(a[k], b[k]) > 0.5 for k in (0, 1))
+
+
+def contains(outer, inner):
+    return all(outer[k] <= inner[k] + 1 and inner[k + 2] <= outer[k + 2] + 1 for k in (0, 1))
+
+
+def slug(*words):
+    return re.sub("[^a-z0-9]+", "-", " ".join(map(str, words)).lower()).strip("-")
+
+
+def asked(row):
+    return row["question"], f"{row['dim']}-D", row["precision"], row["class"], row["state"]
+
+
+def curves(rows):
+    """By figure, from the rows themselves: a curve for each library and knob, and for what is promised; of how many
+    points. And one for each library that was timed cold and warm."""
+    expected, timed = defaultdict(Counter), set()
+    for row in rows:
+        if row["row"] == "class":
+            expected[slug(*asked(row))].update()
+        if row["row"] == "answers" and (row["median"] or 0) > 0:
+            name = f"{row['library']}{', warm' if row['warm'] else ''} {row['knob']}"
+            if row["default"]:
+                timed.add((asked(row), row["library"], row["warm"]))
+            own, has_error = expected[slug(*asked(row))], row["max_error"] is not None and row["failed"] < row["asked"]
+            own[slug(name)] += row["question"] == "intersect" or has_error
+            own[slug(name, "promised")] += has_error and row["promised"] is not None
+        if row["row"] == "growth":
+            for what in ("median", "supports"):
+                own = expected[slug("growth", row["by"], *asked(row), what)]
+                own[slug(row["library"])] += (row[what] or 0) > 0
+                own[slug(row["library"], "floor")] += what == "median" and (row["floor"] or 0) > 0
+    for where, library, warm in timed:
+        if warm and (where, library, False) in timed:
+            expected[slug("warm", *where[:3])][slug(where[3], library)] += 1
+    return {name: dict(+own) for name, own in expected.items() if +own or "growth" not in name}
+
+
+@pytest.mark.parametrize("medium", MEDIA)
+def test_all_is_drawn_and_nothing_overlaps(browser, made, rows, medium):
+    expected = curves(rows)
+    assert sum(map(len, expected.values())) > 20
+    found = list(faults(look(browser, made / "index.html", medium), expected, medium))
+    assert not found, "\n".join(found)
+
+
+BROKEN = [
+    ("console", "<body>", "<body><script>console.error('no')</script>"),
+    ("self-contained", "<body>", '<body><img src="none.png">'),
+    ("wider", "<body>", '<body><div style="width: 5000px">no</div>'),
+    ("no such figure", "<figure", '<div class="figure"'),
+    ("not drawn", "<svg", '<svg style="display: none"'),
+    ("curves are", "-curve-", "-line-"),
+    ("curves are", "(-curve-.*?)<use ", r"\1<text "),
+    ("is not seen", '<g id="([^"]*)-curve-', r'<g style="display: none" id="\1-curve-'),
+    ("is upon", "</svg>", '<text x="150" y="50">one</text><text x="155" y="50">two</text></svg>'),
+    ("leaves", "</svg>", '<text x="300" y="50">far too long to fit into the figure</text></svg>'),
+    ("figures may be cut", "break-inside: avoid", "break-inside: auto"),
+    ("a table is cut", '<div class="table">', '<div class="table" style="width: 20px">'),
+]
+
+
+@pytest.mark.parametrize(("fault", "pattern", "by"), BROKEN)
+def test_what_is_broken_is_noticed(browser, small, few, fault, pattern, by):
+    cut = "cut" in fault
+    text, count = re.subn(pattern, by, (small / "index.html").read_text(encoding="utf-8"), count=0 if cut else 1)
+    assert count
+    page = small / "broken.html"
+    page.write_text(text, encoding="utf-8")
+    medium = "paper" if cut else "phone"
+    assert any(fault in found for found in faults(look(browser, page, medium), curves(few), medium))
+
+
+def test_the_readme_s_plot_stands_alone(browser, made):
+    browser.get((made / "comparison.svg").as_uri())
+    box = browser.execute_script(
+        "const r = document.documentElement.getBoundingClientRect(); return [r.width, r.height]"
+    )
+    assert min(box) > 100
+    assert browser.find_elements("css selector", '[id*="-curve-"]')
+    assert browser.get_log("browser") == []
+
+
+def test_the_markdown_tells_the_same(made, rows):
+    text = (made / "comparison.md").read_text(encoding="utf-8")
+    head = next(row for row in rows if row["row"] == "head")
+    assert all(f"| {peer['name']} | {peer['version']} |" in text for peer in head["peers"])
+    assert all(f"| {name} | missing" in text for name in head["missing"])
+    for row in rows:
+        if row["row"] == "class":
+            assert f"| {row['class']}, {row['state']} |" in text
+
+
+def test_the_cases_replay(made):
+    """What ours answers to them holds the truth that the page tells."""
+    text = (made / "comparison.md").read_text(encoding="utf-8")
+    cases = re.findall(r"They are (.*?);[^\n]*\n\n```json\n(.*?)\n```", text)
+    assert cases
+    lines = "".join(f"{case}\n" for _, case in cases)
+    asked = subprocess.run(
+        [sys.executable, "-m", "gjk", "query"], input=lines, capture_output=True, text=True, check=True
+    )
+    answers = [json.loads(line) for line in asked.stdout.splitlines()]
+    assert len(answers) == len(cases)
+    for (told, case), answer in zip(cases, answers):
+        word, *number = told.split(" by ")
+        truth = {"apart": 1, "overlapping": -1, "touching": 0}[word] * float(*number)
+        truth = max(truth, 0) if json.loads(case)["query"] == "distance" else truth
+        digits = 1e-8 * abs(truth)
+        assert answer["lower"] - digits <= truth <= answer["upper"] + digits, case
+
+
+def test_instructions_are_read_and_what_asking_costs_is_taken_off(few, tmp_path):
+    row = next(row for row in few if row["row"] == "answers")
+    results, counted = tmp_path / "results.jsonl", tmp_path / "counted.jsonl"
+    results.write_text("".join(json.dumps(row) + "\n" for row in few), encoding="utf-8")
+    counts = [{"row": "counted", "label": label, "answers": 10} for label in (row["label"], "nothing")]
+    counted.write_text("".join(json.dumps(row) + "\n" for row in [*counts, {"row": "end"}]), encoding="utf-8")
+    for i, (label, total) in enumerate([(row["label"], 5000), ("nothing", 70)]):
+        text = f"desc: Trigger: Client Request: {label}\nsummary: {total}\n\ntotals: {total}\n"
+        (tmp_path / f"callgrind.out.{i}").write_text(text, encoding="utf-8")
+    found = [a for p in Measured([results], counted, tmp_path).places for a in p.answers if a.instructions]
+    assert [a.instructions for a in found] == [493]
+
+
+def test_results_without_an_end_are_refused(few, tmp_path):
+    path = tmp_path / "results.jsonl"
+    path.write_text("".join(json.dumps(row) + "\n" for row in few[:-1]), encoding="utf-8")
+    with pytest.raises(Incomplete):
+        Measured([path])
+
+
+def test_where_ours_is_not_first_is_said(few, tmp_path):
+    """A faster and more exact peer stands in the words and in the marks; a slower and less exact one does not."""
+
+    def told(factor, error):
+        rows = [dict(row) for row in few]
+        for row in rows:
+            if row["row"] == "answers":
+                ours = row["library"].startswith("gjk")
+                row.update(median=1e3 if ours else 1e3 * factor, wrong=0, failed=0)
+                if row["max_error"] is not None:
+                    row["max_error"] = 1e-15 if ours else error
+        path = tmp_path / "results.jsonl"
+        path.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
+        measured = Measured([path])
+        reached = [row[1] for row in tables.marks(measured).rows if row[1] != "not measured"]
+        assert len(reached) >= 3
+        return dict(tables.not_first(measured))["penetration, 3-D, double"], reached
+
+    lines, reached = told(0.5, 1e-16)
+    assert any("is faster in" in line and "(0.50 of our time)" in line for line in lines)
+    assert any("is more exact in" in line and "1.0e-16 to 1.0e-15" in line for line in lines)
+    assert all(text.startswith("0 of") for text in reached)
+    lines, reached = told(4, 5e-15)
+    assert lines == ["Ours is the fastest and the most exact in every class."]
+    assert not any(text.startswith("0 of") for text in reached)
