@@ -3,23 +3,29 @@
 # Builds the fuzzers and runs them all, as many at once as there are cores.
 #
 #   fuzz/run.sh [-k] MINUTES [TARGET.VARIANT...]
+#   fuzz/run.sh EXECUTIONSx [TARGET.VARIANT...]
 #
-# With GJK_FUZZ_SEED set the fuzzers draw from that seed, the same each time.
-# MINUTES is for all of them together, and may be a fraction. Each starts from the inputs in fuzz/corpus and from what
+# With GJK_FUZZ_SEED set the fuzzers draw from that seed.
+# MINUTES is for all of them together, and may be a fraction; 5000x is 5000 executions of each, which with a seed and
+# nothing in build/fuzz/corpus are the same every time (so no help from comparisons: these see addresses). Each starts from the inputs in fuzz/corpus and from what
 # earlier runs left in build/fuzz/corpus, and stops at its first finding; with -k it goes on. Findings are kept in
 # build/fuzz/found; with any the exit status is 1.
 set -eu
 export LC_ALL=C # logs hold bytes of inputs
 cd "$(dirname "$0")/.."
 
-usage() { sed -n 's/^# \{0,1\}//; 4,10p' "$0"; exit 2; }
+usage() { sed -n 's/^# \{0,1\}//; 4,12p' "$0"; exit 2; }
 keep_on=
 if [ "${1-}" = -k ]; then
     keep_on='-fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1'
     shift
 fi
-case ${1-} in '' | *[!0-9.]*) usage ;; esac
-minutes=$1
+runs=
+case ${1-} in
+'' | *[!0-9.x]* | *x?* | x) usage ;;
+*x) runs=${1%x} minutes=5 ;; # five minutes at the most
+*) minutes=$1 ;;
+esac
 shift
 if [ $# -eq 0 ]; then
     for target in distance intersect penetration options hostile; do
@@ -33,7 +39,8 @@ cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz -j "$cores" --target $(printf 'fuzz.%s ' "$@") >/dev/null
 build=build/fuzz
 seconds=$(awk "BEGIN { s = int($minutes * 60 * ($# < $cores ? $# : $cores) / $#); print s < 1 ? 1 : s }")
-echo "$# fuzzers, $seconds s each, $cores at once"
+if [ -n "$runs" ]; then each="$runs executions"; else each="$seconds s"; fi
+echo "$# fuzzers, $each each, $cores at once"
 
 running=
 # shellcheck disable=SC2086 # one word for each process
@@ -49,7 +56,7 @@ for name; do
     # shellcheck disable=SC2086 # no word, or some
     timeout -k 10 $((seconds + 60)) $build/fuzz/fuzz."$name" $keep_on -max_total_time="$seconds" -timeout=10 \
         -rss_limit_mb=2048 -max_len=600 -print_final_stats=1 -artifact_prefix="$found/" \
-        ${GJK_FUZZ_SEED:+-seed="$GJK_FUZZ_SEED"} \
+        ${GJK_FUZZ_SEED:+-seed="$GJK_FUZZ_SEED"} ${runs:+-runs="$runs" -reload=0 -use_cmp=0} \
         "$kept" "fuzz/corpus/${name%.*}" >"$build/log/$name" 2>&1 &
     running="$running $!"
     if [ "$(echo "$running" | wc -w)" -ge "$cores" ]; then
@@ -75,8 +82,9 @@ for name; do
     fi
     edges=$(sed -n 's/.*Loaded 1 modules *(\([0-9]*\) inline.*/\1/p' "$log" | head -n 1)
     number() { echo "$last" | sed -n "s/.* $1: *\([0-9]*\).*/\1/p"; }
+    rate=$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")
     findings=$(find "$build/found/$name" -type f -newer "$build/fuzz/fuzz.$name" | wc -l)
-    printf '%-18s %12s %8s %14s %8s %7s %9s\n' "$name" "${executions:-0}" "$((${executions:-0} / seconds))" \
+    printf '%-18s %12s %8s %14s %8s %7s %9s\n' "$name" "${executions:-0}" "${rate:-$((${executions:-0} / seconds))}" \
         "$(number cov | grep . || echo '?')/${edges:-?}" "$(number ft)" "$(number corp)" "$findings"
     total=$((total + ${executions:-0}))
     failed=$((failed + findings))
