@@ -7,14 +7,14 @@
 #
 # With GJK_FUZZ_SEED set the fuzzers draw from that seed.
 # MINUTES is for all of them together, and may be a fraction; 5000x is 5000 executions of each, which with a seed and
-# nothing in build/fuzz/corpus are the same every time (so no help from comparisons: these see addresses). Each starts from the inputs in fuzz/corpus and from what
-# earlier runs left in build/fuzz/corpus, and stops at its first finding; with -k it goes on. Findings are kept in
-# build/fuzz/found; with any the exit status is 1.
+# nothing in build/fuzz/corpus are all but the same every time (without help from comparisons, which see addresses).
+# Each starts from the inputs in fuzz/corpus and from what earlier runs left in build/fuzz/corpus, and stops at its first
+# finding; with -k it goes on. Findings are kept in build/fuzz/found; with any the exit status is 1.
 set -eu
 export LC_ALL=C # logs hold bytes of inputs
 cd "$(dirname "$0")/.."
 
-usage() { sed -n 's/^# \{0,1\}//; 4,12p' "$0"; exit 2; }
+usage() { sed -n 's/^# \{0,1\}//; 4,11p' "$0"; exit 2; }
 keep_on=
 if [ "${1-}" = -k ]; then
     keep_on='-fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1'
