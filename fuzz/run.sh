@@ -14,7 +14,7 @@ set -eu
 export LC_ALL=C # logs hold bytes of inputs
 cd "$(dirname "$0")/.."
 
-usage() { sed -n 's/^# \{0,1\}//; 4,11p' "$0"; exit 2; }
+usage() { sed -n 's/^# \{0,1\}//; 4,12p' "$0"; exit 2; }
 keep_on=
 if [ "${1-}" = -k ]; then
     keep_on='-fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1'
