@@ -26,6 +26,12 @@ static inline input input_from(const uint8_t *bytes, size_t count)
 
 static inline int byte(input *in) { return in->next < in->end ? *in->next++ : 0; }
 
+static inline int two_bytes(input *in)
+{
+    int high = byte(in);
+    return high << 8 | byte(in);
+}
+
 /* -128 .. 127 */
 static inline int small_whole(input *in)
 {
@@ -81,6 +87,7 @@ static inline real fresh_number(input *in)
 {
     const int least = VARIANT_FLOAT ? -149 : -1074, most = VARIANT_FLOAT ? 127 : 1023;
     int op = choice(in, 16), x;
+    real used;
     if (in->calm && op > 12) {
         op -= 8;
     }
@@ -98,12 +105,15 @@ static inline real fresh_number(input *in)
     case 6:
         return -used_before(in);
     case 7:
-        return nudged(used_before(in), small_whole(in));
+        used = used_before(in);
+        return nudged(used, small_whole(in));
     case 8:
-        return rounded((double)used_before(in) + (double)used_before(in));
+        used = used_before(in);
+        return rounded((double)used + (double)used_before(in));
     case 9:
         x = choice(in, 48);
-        return rounded((double)used_before(in) + ldexp(small_whole(in), -x)); /* a little beside */
+        used = used_before(in);
+        return rounded((double)used + ldexp(small_whole(in), -x)); /* a little beside */
     case 10:
     case 11:
         return (real)fraction(in);
@@ -111,7 +121,7 @@ static inline real fresh_number(input *in)
         x = choice(in, 81) - 40;
         return (real)ldexp(fraction(in), x);
     case 13:
-        x = least + (byte(in) << 8 | byte(in)) % (most - least);
+        x = least + two_bytes(in) % (most - least);
         return rounded(ldexp(small_whole(in) / 64.0, x));
     case 14:
         return (real)(small_whole(in) * (double)REAL_MIN * (double)REAL_EPSILON); /* subnormal */

@@ -42,7 +42,7 @@ static uint32_t option_size(input *in)
                                   offsetof(V(options), tight), sizeof(V(options))};
     int op = choice(in, 8);
     if (op == 0) {
-        return (uint32_t)((byte(in) << 8 | byte(in)) % MOST_BYTES);
+        return (uint32_t)(two_bytes(in) % MOST_BYTES);
     }
     if (op == 1) {
         return UINT32_MAX >> byte(in) % 24;
@@ -74,7 +74,7 @@ static void read_workspace(V(options) * o, int op, input *in)
     if (op >= 6) {
         bytes = V(workspace_size)(8 + (uint32_t)byte(in) % (MOST_CORNERS - 8));
         off = op == 8 ? (size_t)byte(in) % sizeof(real) : 0;
-        bytes = op == 9 ? (size_t)(byte(in) << 8 | byte(in)) : bytes;
+        bytes = op == 9 ? (size_t)two_bytes(in) : bytes;
     }
     o->workspace = lend_room(bytes + off);
     if (o->workspace) {

@@ -155,7 +155,7 @@ static inline void read_rotation(input *in, real *m)
 /* other: a pose to be like. */
 static inline void read_map(input *in, const V(pose) * other, real *m)
 {
-    int i, j, op = choice(in, 16);
+    int i, j, whole, op = choice(in, 16);
     real by;
     switch (op) {
     case 0:
@@ -171,7 +171,8 @@ static inline void read_map(input *in, const V(pose) * other, real *m)
     case 7: /* turned by a very small angle */
         i = choice(in, DIM);
         j = (i + 1) % DIM;
-        m[i * DIM + j] = (real)ldexp(small_whole(in), -choice(in, 64));
+        whole = small_whole(in);
+        m[i * DIM + j] = (real)ldexp(whole, -choice(in, 64));
         m[j * DIM + i] = -m[i * DIM + j];
         return;
     case 8:
@@ -267,6 +268,7 @@ static inline void place_on(input *in, const body *other, body *b)
 static inline void read_position(input *in, const body *other, body *b)
 {
     int i, op = choice(in, 8);
+    real x;
     switch (op) {
     case 0:
         break;
@@ -280,7 +282,8 @@ static inline void read_position(input *in, const body *other, body *b)
         b->pose.p[i] = nudged(b->pose.p[i], small_whole(in));
         break;
     case 4: /* along one axis */
-        b->pose.p[choice(in, DIM)] = number(in);
+        x = number(in);
+        b->pose.p[choice(in, DIM)] = x;
         break;
     default:
         read_vector(in, b->pose.p);
