@@ -307,11 +307,29 @@ static inline double stands_off(const question *q, int k, const real *point)
     return (double)off.lower;
 }
 
+/* The rounding of a posed set is charged by the largest sum of a row or column of its map, the span by the root of all
+ * squares: how much larger the first may be. */
+static inline double sums_over_span(const body *b)
+{
+    double most = 0, squares = 0;
+    for (int i = 0; i < DIM; i++) {
+        double row = 0, column = 0;
+        for (int j = 0; j < DIM; j++) {
+            row += fabs((double)b->pose.m[DIM * i + j]);
+            column += fabs((double)b->pose.m[DIM * j + i]);
+            squares += (double)b->pose.m[DIM * i + j] * (double)b->pose.m[DIM * i + j];
+        }
+        most = fmax(most, fmax(row, column));
+    }
+    return most > 0 ? fmax(1, most / sqrt(squares)) : 1;
+}
+
 /* How wide rounding may make a bracket. The reach of a cloud that does not know its own is found along the axes: up to
  * sqrt(DIM) times too large, and the rounding counted with it. */
 static inline double width_of(const question *q)
 {
-    return q->s.silent[0] || q->s.silent[1] ? WIDTH * sqrt(DIM) : WIDTH;
+    double wide = WIDTH * fmax(sums_over_span(&q->one.p.a), sums_over_span(&q->one.p.b));
+    return q->s.silent[0] || q->s.silent[1] ? wide * sqrt(DIM) : wide;
 }
 
 /* What points are rounded by: the sizes, and how far out they stand. 0: of what is so far out nothing is asked. */
@@ -636,8 +654,10 @@ static inline void must_meet_warm(question *q, input *in, int (*ask_it)(question
     for (int k = 0; k < 4; k++) {
         V(pose) *pose = &whole_of(&q->s, k & 1)->pose, was = *pose;
         if (k > 1) {
-            pose->p[choice(in, DIM)] = number(in);
-            pose->m[choice(in, DIM * DIM)] = number(in);
+            real p = number(in), m;
+            pose->p[choice(in, DIM)] = p;
+            m = number(in);
+            pose->m[choice(in, DIM * DIM)] = m;
             query_of[other[k - 2]](&q->s.p.a.shape, &q->s.p.b.shape, &q->options, &r);
             *pose = was;
         }

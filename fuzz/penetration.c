@@ -72,7 +72,9 @@ static void check_sharp(const question *q, const pair_facts *f, const V(result) 
     }
 }
 
-/* Each point is the body's deepest in the other, and from one to the other it is the depth, along the normal. */
+/* Each point is the body's deepest in the other, and from one to the other it is the depth, along the normal. What the
+ * bracket leaves open counts twice: the facet that the points are on may be a little higher than the lowest, and face a
+ * little another way than the normal. */
 static void check_deepest(const question *q, const V(result) * r, quad scale, double more)
 {
     quad along[2] = {0, 0};
@@ -110,7 +112,7 @@ static void check_depth(const question *q, const pair_facts *f, const V(result) 
         check_points_in(q, r, scale, more);
     }
     if (scale > 0 && r->status != GJK_LIMIT) {
-        check_deepest(q, r, scale, more);
+        check_deepest(q, r, scale, 2 * more);
     }
 }
 
@@ -165,11 +167,13 @@ static void check_rooms(question *q, input *in, const V(result) * usual)
         uint32_t corners = 8 + (uint32_t)choice(in, most[k]);
         size_t bytes = V(workspace_size)(corners);
         V(result) r, again;
+        size_t more;
         if (!ask_within(q, bytes, byte(in), &r)) {
             continue;
         }
         must_meet(q, "another workspace, another answer", &r, usual);
-        if (ask_within(q, bytes + (size_t)choice(in, 24), byte(in), &again)) {
+        more = (size_t)choice(in, 24);
+        if (ask_within(q, bytes + more, byte(in), &again)) {
             must_be_same(q, "what was in the workspace, or a few bytes more, made a difference", &again, &r);
         }
     }

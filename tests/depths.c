@@ -65,6 +65,7 @@ static const char *const law_name[LAWS] = {
 
 typedef struct figures {
     enum family family;
+    const char *name; /* of what is drawn */
     long pairs, apart, deep, known, unsure, limits, astray;
     long asked[LAWS];
     faults faults;
@@ -78,7 +79,7 @@ static void print_figures(const figures *s)
     printf("%-6s %-10s %5ld pairs %5ld overlap | corners %5ld error %8.3g width %8.3g | others error %8.3g width "
            "%8.3g, %8.3g but for limits | "
            "calls %5.2f max %5.1f | %ld limits %ld unsure %ld faults\n",
-           VARIANT, family_name[s->family], s->pairs, s->deep, s->known, s->max_error, s->max_width, s->max_round_error,
+           VARIANT, s->name, s->pairs, s->deep, s->known, s->max_error, s->max_width, s->max_round_error,
            s->max_round_width, s->max_unlimited, mean(s->sum_calls, s->deep), s->max_calls, s->limits, s->unsure,
            s->faults.count);
 }
@@ -134,8 +135,8 @@ static void hold(figures *s, enum law law, const V(result) * r, int holds, doubl
     print_error(
         "%s penetration, pair %ld of %s: %s (%.3g)\n  status %d value %.17g lower %.17g upper %.17g; truth %.17g "
         "+ %.3g, scale %.3g, normal ",
-        VARIANT, at, family_name[s->family], law_name[law], by, r->status, (double)r->value, (double)r->lower,
-        (double)r->upper, (double)nearly.lower, (double)(nearly.upper - nearly.lower), scale());
+        VARIANT, at, s->name, law_name[law], by, r->status, (double)r->value, (double)r->lower, (double)r->upper,
+        (double)nearly.lower, (double)(nearly.upper - nearly.lower), scale());
     print_numbers(stderr, r->normal, DIM);
     fprintf(stderr, "\n  ");
     print_case(stderr, "intersect", &p->a, &p->b);
@@ -335,7 +336,7 @@ static void check_points(figures *s, const V(result) * r)
     s->astray += gap > most && is_astray(gap);
     hold(s, SPANS, r, gap <= most || is_astray(gap), in_u(gap, scale()));
     for (int k = 0; k < 2; k++) {
-        hold(s, IS_DEEP, r, deep[k] <= most + (quad)width_of(r), in_u(deep[k], scale()));
+        hold(s, IS_DEEP, r, deep[k] <= (quad)(allowed(r, POINT_ERROR) + width_of(r)), in_u(deep[k], scale()));
     }
 }
 
@@ -406,7 +407,7 @@ static void family_holds(void **state)
         one_pair(s);
     }
     print_figures(s);
-    print_faults(&s->faults, family_name[s->family]);
+    print_faults(&s->faults, s->name);
     assert_int_equal(s->faults.count, 0);
     assert_true(s->astray <= 1 + s->deep / 200);
 }
@@ -860,6 +861,42 @@ static void round_shapes(void **state)
     assert_true(is_share(c.larger, c.pairs, SHARE));
 }
 
+/* ---- cores that are small beside their radii ---- */
+
+static real draw_small(draws *d, body *b)
+{
+    double size = magnitude(d, -14, 0);
+    draw_any(d, b, round_kinds[below(d, ROUND_KINDS)]);
+    for (int i = 0; i < DIM * DIM; i++) {
+        b->pose.m[i] = (real)(size * (double)b->pose.m[i]);
+    }
+    return (real)between(d, 0.2, 1);
+}
+
+/* Near each other, or one in the other: the ways between them are small beside the radii, or noise. */
+static void small_cores(void **state)
+{
+    static figures s;
+    (void)state;
+    s.name = "small cores";
+    for (at = 0; at < 2 * pairs_per_family; at++) {
+        draws d = draws_from(seed, 2001, (uint64_t)at);
+        real ra = draw_small(&d, &drawn.a), rb = below(&d, 2) ? draw_small(&d, &drawn.b) : 0;
+        if (!(rb > 0)) {
+            draw_any(&d, &drawn.b, round_kinds[below(&d, ROUND_KINDS)]);
+        }
+        put_off(&d, magnitude(&d, -14, 0));
+        bind_pair(&drawn);
+        drawn.a.shape.radius = ra;
+        drawn.b.shape.radius = rb;
+        ask_about_pair(&s);
+    }
+    print_figures(&s);
+    print_faults(&s.faults, s.name);
+    assert_true(s.deep > pairs_per_family);
+    assert_int_equal(s.faults.count, 0);
+}
+
 /* ---- to the last place ---- */
 
 typedef struct last_places {
@@ -1305,7 +1342,7 @@ static void turned_boxes(void **state)
 {
     static figures s;
     overlaps all[2] = {{0, 0}, {0, 0}};
-    s.family = BOXES;
+    s.name = "turned boxes";
     (void)state;
     for (at = 0; at < boxes; at++) {
         V(result) r;
@@ -1318,7 +1355,7 @@ static void turned_boxes(void **state)
         ask_about_boxes(&s, all, &r);
     }
     print_figures(&s);
-    print_faults(&s.faults, "turned boxes");
+    print_faults(&s.faults, s.name);
     printf("%-6s turned boxes: %ld overlap by less than %.0e of the scale, calls %.2f; %ld by more, calls %.2f\n",
            VARIANT, all[0].pairs, SHALLOW, mean(all[0].calls, all[0].pairs), all[1].pairs,
            mean(all[1].calls, all[1].pairs));
@@ -1347,27 +1384,19 @@ static void read_arguments(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    static const struct CMUnitTest others[] = {cmocka_unit_test(every_law_was_asked),
-                                               cmocka_unit_test(workspaces),
-                                               cmocka_unit_test(few_steps),
-                                               cmocka_unit_test(tolerances),
-                                               cmocka_unit_test(balls),
-                                               cmocka_unit_test(capsules),
-                                               cmocka_unit_test(boxes_along_axes),
-                                               cmocka_unit_test(concentric),
-                                               cmocka_unit_test(stacked),
-                                               cmocka_unit_test(round_shapes),
-                                               cmocka_unit_test(last_places_of_depths),
-                                               cmocka_unit_test(flat_pairs),
-                                               cmocka_unit_test(uneven),
-                                               cmocka_unit_test(paths),
-                                               cmocka_unit_test(turned_boxes)};
+    static const struct CMUnitTest others[] = {
+        cmocka_unit_test(every_law_was_asked), cmocka_unit_test(workspaces),  cmocka_unit_test(few_steps),
+        cmocka_unit_test(tolerances),          cmocka_unit_test(balls),       cmocka_unit_test(capsules),
+        cmocka_unit_test(boxes_along_axes),    cmocka_unit_test(concentric),  cmocka_unit_test(stacked),
+        cmocka_unit_test(round_shapes),        cmocka_unit_test(small_cores), cmocka_unit_test(last_places_of_depths),
+        cmocka_unit_test(flat_pairs),          cmocka_unit_test(uneven),      cmocka_unit_test(paths),
+        cmocka_unit_test(turned_boxes)};
     struct CMUnitTest tests[FAMILIES + sizeof others / sizeof *others];
     read_arguments(argc, argv);
     memset(tests, 0, sizeof tests);
     for (int f = 0; f < FAMILIES; f++) {
         figures_of[f].family = (enum family)f;
-        tests[f].name = family_name[f];
+        figures_of[f].name = tests[f].name = family_name[f];
         tests[f].test_func = family_holds;
         tests[f].initial_state = &figures_of[f];
     }

@@ -168,10 +168,9 @@ static void witness(result *r, const search *q, const real weight[], const shape
     vec on_b = witness_of(&q->d.b, b->pose, &q->s, weight, offsetof(vertex, y), down, level);
     vec way = blend(&q->s, weight, offsetof(vertex, w), 1);
     real l = length(way);
-    if (deep) {
-        vec n = deep > 1 || !(l > 0) ? q->normal : mul(way, -1 / l);
-        on_a = add(on_a, mul(n, a->radius * level));
-        on_b = sub(on_b, mul(n, b->radius * level));
+    if (deep > 1 || (deep && r->upper <= 0)) {
+        on_a = add(on_a, mul(q->normal, a->radius * level));
+        on_b = sub(on_b, mul(q->normal, b->radius * level));
     } else if (r->upper <= 0 || l * down < radius * level) {
         real share = a->radius > 0 ? a->radius / radius : 0;
         on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));

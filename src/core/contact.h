@@ -70,12 +70,6 @@ static void point_along_pair(search *q, const shape *a, const shape *b, const go
 
 /* ---- cores that meet ---- */
 
-/* In the lowest facet's plane, as far as rounding can tell. */
-static int is_level(const depth *d, const tip *t)
-{
-    return size(height_of(t, d->floor->n) - d->floor->height) <= 32 * UNIT;
-}
-
 /* Of the body's corners that are as far along n as any, to rounding, the one farthest along aside. */
 static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
 {
@@ -97,6 +91,12 @@ static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
     return best;
 }
 
+/* In the lowest facet's plane, as far as rounding can tell. */
+static int is_level(const depth *d, const tip *t)
+{
+    return size(height_of(t, d->floor->n) - d->floor->height) <= 32 * UNIT;
+}
+
 /* Of what is level the corner least along v: of all known corners, else of the tips. */
 static tip level_tip(const depth *d, vec v)
 {
@@ -113,6 +113,9 @@ static tip level_tip(const depth *d, vec v)
     return best;
 }
 
+/* Where the lowest facet's plane is nearest the origin. */
+static vec foot_of(const depth *d) { return mul(d->floor->n, d->floor->height); }
+
 static void take_tip(simplex *s, const tip *t, vec foot)
 {
     vertex *c = spare(s);
@@ -122,17 +125,21 @@ static void take_tip(simplex *s, const tip *t, vec foot)
     s->n++;
 }
 
-/* The lowest point of the surface as a blend of tips: where the lowest facet's plane is nearest the origin. A face of
- * more than DIM corners is several facets, so that point is sought among all that is level, as the origin is in a
- * search. Returns how far beside it lies. */
+static void start_over(search *q)
+{
+    clear(&q->s);
+    q->pending = 0;
+    q->borrowed = 0;
+}
+
+/* The lowest point of the surface as a blend of tips: the foot. A face of more than DIM corners is several facets, so
+ * that point is sought among all that is level, as the origin is in a search. Returns how far beside it lies. */
 static real hand_over(const depth *d, real weight[DIM + 1])
 {
     search *q = d->q;
-    vec foot = mul(d->floor->n, d->floor->height), v;
+    vec foot = foot_of(d), v;
     simplex *s = &q->s;
-    clear(s);
-    q->pending = 0;
-    q->borrowed = 0;
+    start_over(q);
     take_tip(s, &d->p.tip[d->floor->v[0]], foot);
     v = point(s, 0);
     for (int i = 0; i < USUAL_TIPS && dot(v, v) > UNIT * UNIT / 4; i++) {
@@ -151,29 +158,69 @@ static real hand_over(const depth *d, real weight[DIM + 1])
     return certify(q, weight) - q->d.doubt;
 }
 
+/* The same as a blend of one facet's tips. */
+static real hand_over_from(const depth *d, const facet *f, real weight[DIM + 1])
+{
+    start_over(d->q);
+    for (int i = 0; i < DIM; i++) take_tip(&d->q->s, &d->p.tip[f->v[i]], foot_of(d));
+    d->q->v = nearest_of_all(&d->q->s, 0, 1, 0);
+    return certify(d->q, weight) - d->q->d.doubt;
+}
+
+/* The foot may lie beside the lowest facet, on one that is no higher to within some roundings, though its other tips
+ * are lower than level: it is in the polytope, since no facet is nearer the origin. */
+static void hand_over_from_any(const depth *d, real off, real weight[DIM + 1])
+{
+    const facet *best = NULL;
+    for (int k = 0; k < d->p.facets; k++) {
+        real here = hand_over_from(d, &d->p.facet[k], weight);
+        if (!(here < off)) continue;
+        off = here;
+        best = &d->p.facet[k];
+    }
+    if (best) hand_over_from(d, best, weight);
+    else hand_over(d, weight);
+}
+
 /* The facet's normal, where that says as much as any direction asked: of several that are equal, one for normal and
- * points alike. */
+ * points alike. Of unknown corners the facet was the last to be asked. */
 static int takes_normal(depth *d, const facet *f)
 {
     search *q = d->q;
     vec normal = q->normal;
     real best = q->lower;
-    q->lower = -REAL_MAX;
-    if (d->g->exact) bound_along(d, f->n);
-    int as_good = !d->g->exact || q->lower >= best - 16 * UNIT;
+    q->lower = d->below;
+    if (d->g->exact) {
+        q->lower = -REAL_MAX;
+        bound_along(d, f->n);
+    }
+    int as_good = q->lower >= best - 2 * UNIT;
     q->normal = as_good ? f->n : normal;
     q->lower = larger(q->lower, best);
     return as_good;
 }
 
-/* Normal and points go with the lowest facet. Of some that are equally low to rounding, one is the lowest in truth, and
- * that one is right under the origin. */
+/* Where the lowest facet is not the one for the normal, the points go with a facet that faces the same way. */
+static void turn_to_normal(depth *d)
+{
+    for (int k = 0; k < d->p.facets; k++) {
+        const facet *f = &d->p.facet[k];
+        if (dot(f->n, d->q->normal) > dot(d->floor->n, d->q->normal)) d->floor = f;
+    }
+}
+
+/* Normal and points go with the lowest facet, if its normal is as good as any. Of some that are equally low to
+ * rounding, one is the lowest in truth, and that one is right under the origin. */
 static void point_out(depth *d, real weight[DIM + 1])
 {
     const facet *best = d->floor;
-    takes_normal(d, best);
+    if (!takes_normal(d, best) && !d->g->exact) turn_to_normal(d);
     real off = hand_over(d, weight);
-    if (!d->g->exact || !(off > 4 * UNIT)) return;
+    if (!(off > 4 * UNIT)) return;
+    if (!d->g->exact) {
+        hand_over_from_any(d, off, weight);
+        return;
+    }
     for (int k = 0; k < d->p.facets; k++) {
         const facet *f = &d->p.facet[k];
         if (f == best || !(f->height <= best->height + 64 * UNIT) || !takes_normal(d, f)) continue;
@@ -188,15 +235,6 @@ static void point_out(depth *d, real weight[DIM + 1])
     hand_over(d, weight);
 }
 
-/* Where the lowest facet is not the one for the normal, the points go with a facet that faces the same way. */
-static void turn_to_normal(depth *d)
-{
-    for (int k = 0; k < d->p.facets; k++) {
-        const facet *f = &d->p.facet[k];
-        if (dot(f->n, d->q->normal) > dot(d->floor->n, d->q->normal)) d->floor = f;
-    }
-}
-
 /* The bounds as they are now, and whether what is settled is proven. */
 static void prove(depth *d, real *upper)
 {
@@ -204,26 +242,25 @@ static void prove(depth *d, real *upper)
     d->settled &= proven || (d->flush && d->q->met);
 }
 
-/* The cores meet, or nearly so: how deep. */
+/* The cores meet, or nearly so: how deep. Where the difference is flat to rounding, the search's points, which are one
+ * to rounding, are the contact. */
 static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
 {
-    d->p.fine = d->g->exact;
-    if (d->g->tight) {
-        d->p.side = exact_side;
-        d->p.of = d;
-    }
+    const goal *g = d->g;
+    d->p.fine = g->exact;
     d->p.noise = (d->p.fine ? 32 * UNIT : 4) * UNIT;
     enum end end = first_surface(d);
-    if (end == OPEN && d->p.facets > 0) end = deepen(d);
+    int flat = d->p.facets == 0;
+    if (end == OPEN && !flat) end = deepen(d);
     if (end == FAULT) return end;
-    if (d->g->tight && end == STILL) settle_depth(d, &end);
+    if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     prove(d, upper);
-    if (d->g->tight && !d->settled && d->floor && d->q->steps < d->g->max_steps) {
+    if ((g->tight || d->spoiled) && !d->settled && d->floor && d->q->steps < g->max_steps) {
         settle_anew(d, &end);
         prove(d, upper);
     }
     if (d->settled) d->q->normal = d->normal;
-    if (!d->floor) return end;
+    if (flat || !d->floor) return end;
     if (end == OPEN) turn_to_normal(d);
     if (d->settled || end == OPEN) hand_over(d, weight);
     else point_out(d, weight);

@@ -25,8 +25,9 @@ typedef struct depth {
     polytope p;
     const facet *floor; /* the lowest facet, at the end */
     tally dropped;      /* of facets that the surface has but the polytope no longer */
-    vec along;          /* the direction asked last to all digits, */
+    vec along;          /* the direction asked last, of known corners to all digits, */
     real below;         /*   and the bound from below that it gave */
+    int spoiled;        /* the polytope of known corners is, by roundings */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
     real ends[3];       /* the bracket of the separation then, radii included, and the value */
     vec normal;         /* that goes with it */
@@ -356,18 +357,21 @@ static int close_enough(const depth *d, const facet *f, real lower)
 }
 
 /* Whether anything lies beyond the facet along its n: t, the corner there by rounded heights or, of known corners, by
- * true ones. */
+ * true ones. Beyond a facet of their hull are no tips: where one is seen there, the polytope is spoiled by roundings,
+ * and would only take in the same tips for ever. */
 static int is_beyond(depth *d, const facet *f, tip *t)
 {
     vertex c;
-    if (!is_tip_of(&d->p, f, t) && sees(&d->p, f, t)) return 1;
+    if (!is_tip_of(&d->p, f, t) && sees(&d->p, f, t) && !is_known(&d->p, t)) return 1;
     if (!d->g->exact) return 0;
     fine_bound(d, f->n, &c);
     c.w = corner_of(&d->q->d, c.x, c.y);
     *t = tip_of(d->q, &c, 0);
     if (is_tip_of(&d->p, f, t)) return 0;
     *t = tip_of(d->q, &c, 1);
-    return sees(&d->p, f, t);
+    if (!sees(&d->p, f, t)) return 0;
+    d->spoiled |= is_known(&d->p, t);
+    return !d->spoiled;
 }
 
 /* Takes in the corner beyond the facet, or the facet is done. CLOSE: what lies there is of no account; the bound from
@@ -380,6 +384,10 @@ static enum end look_beyond(depth *d, facet *f)
     vec normal = q->normal;
     q->lower = -REAL_MAX;
     if (!ask_along(d, f->n, &t)) return FAULT;
+    if (!d->g->exact) {
+        d->along = f->n;
+        d->below = q->lower;
+    }
     if (close_enough(d, f, q->lower)) return CLOSE;
     if (q->lower < best) {
         q->lower = best;

@@ -99,6 +99,14 @@ static int is_tip_of(const polytope *p, const facet *f, const tip *t)
     return r;
 }
 
+/* Whether that corner was taken in before, and not dropped to make room. */
+static int is_known(const polytope *p, const tip *t)
+{
+    int r = 0;
+    for (int i = 0; i < p->tips && !r; i++) r = same(p->tip[i].x, t->x) && same(p->tip[i].y, t->y);
+    return r;
+}
+
 /* From one tip to another, to all digits that are known. */
 static inline vec reach_over(const tip *from, const tip *to)
 {
@@ -364,7 +372,6 @@ static int is_on_side(const polytope *p, const facet *f, seam s, const tip *t)
  * which count by how far t is from the nearest corner. */
 static real side_of(const polytope *p, const facet *f, const tip *t)
 {
-    if (p->without_rounding) return (real)p->side(p->of, f, t);
     real r = rise_over(p, f, t);
     if (!p->fine || size(r) > CLEAR) return r;
     vec e = reach_over(&p->tip[f->v[nearest_corner(p, f, t)]], t);

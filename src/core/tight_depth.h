@@ -99,8 +99,9 @@ static facet *lowest_plane(finish *f, const depth *d, real ends[3])
 }
 
 /* Grows the polytope on, from where rounding sees nothing beyond it: until the lowest plane has no corner beyond it.
- * Its facet is the floor then, and ends the bracket of the separation, radii included, if the surface goes around the
- * origin: STILL. OPEN: steps or workspace are used up. FAULT: it can't be done. */
+ * The facet of that plane is the floor then, and ends the bracket of the separation, radii included, if the surface
+ * goes around the origin: STILL. OPEN: steps or workspace are used up. FAULT: it can't be done. Each step adds a tip,
+ * for which there must be room. */
 static enum end grow_on(depth *d, finish *f, real ends[3])
 {
     for (;;) {
@@ -111,8 +112,6 @@ static enum end grow_on(depth *d, finish *f, real ends[3])
         if (d->q->steps >= d->g->max_steps) return OPEN;
         if (!take_step(f, d, &t)) break;
         if (f->lost || grow(&d->p, low, &t) != GROWN) return FAULT;
-        enum end end = d->p.without_rounding ? STILL : deepen(d);
-        if (end != STILL) return end;
     }
     return f->lost || f->over.sign < 0 ? FAULT : STILL;
 }
@@ -175,32 +174,29 @@ static void settle_on(depth *d, finish *f, enum end grown, enum end *end)
     d->normal = mul(d->normal, 1 / length(d->normal));
 }
 
-/* Settles the depth from the polytope as it is. */
+/* Settles the depth from the polytope as it is; from the tips, where these are flat to rounding. */
 static APART void settle_depth(depth *d, enum end *end)
 {
     finish f;
-    enum end grown = STILL;
+    enum end grown = CLOSE;
+    d->p.without_rounding = 1;
+    d->p.side = exact_side;
+    d->p.of = d;
     if (d->p.facets == 0) grown = span_out(d, &f);
-    if (grown == CLOSE) grown = deepen(d);
-    if (grown == STILL && d->p.facets > 0) grown = grow_on(d, &f, d->ends);
+    if (grown == CLOSE) grown = grow_on(d, &f, d->ends);
     settle_on(d, &f, grown, end);
 }
 
-/* The same from a corner on, where rounding has spoiled the polytope or filled the workspace with what it left:
- * another, of which no side is told by rounded numbers. */
+/* The same from a corner on, where rounding has spoiled the polytope or filled the workspace with what it left. */
 static APART void settle_anew(depth *d, enum end *end)
 {
-    finish f;
     polytope *p = &d->p;
     p->tip[0] = p->tip[d->floor->v[0]];
     p->tips = 1;
     p->facets = 0;
-    p->without_rounding = 1;
     d->dropped = (tally){.least = REAL_MAX};
     d->floor = NULL;
-    enum end grown = span_out(d, &f);
-    if (grown == CLOSE) grown = grow_on(d, &f, d->ends);
-    settle_on(d, &f, grown, end);
+    settle_depth(d, end);
 }
 
 #endif
