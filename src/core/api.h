@@ -9,35 +9,42 @@
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
 
+/* A number times 0 is 0, unless it is none or not finite. */
 static int sound(const shape *s)
 {
     if (!s || !s->support || !(s->radius >= 0 && s->radius <= REAL_MAX / 16)) return 0;
-    if (!s->pose) return 1;
-    int r = 1;
-    for (int i = 0; i < DIM * DIM; i++) r &= bounded(s->pose->m[i]);
-    for (int i = 0; i < DIM; i++) r &= bounded(s->pose->p[i]);
-    return r;
+    real none = 0;
+    for (int i = 0; i < DIM * DIM && s->pose; i++) none += s->pose->m[i] * 0;
+    for (int i = 0; i < DIM && s->pose; i++) none += s->pose->p[i] * 0;
+    return none == 0;
 }
 
-/* Options of any age: a shorter struct ends before the pointers, or after one; what a longer one says beyond the end of
+/* Of another age: a shorter struct ends before the pointers, or after one; what a longer one says beyond the end of
  * ours must be nothing. */
-static int read_options(options *o, const options *given)
+static APART int read_aged_options(options *o, const options *given)
 {
     const unsigned char *from = (const unsigned char *)given;
-    uint32_t given_size = sizeof *o;
+    uint32_t given_size = given->size;
+    if (given_size < offsetof(options, cache) || given_size > OPTIONS_LARGEST) return 0;
+    if (given_size < sizeof *o && (given_size - offsetof(options, cache)) % sizeof(void *) != 0) return 0;
+    for (size_t i = sizeof *o; i < given_size; i++)
+        if (from[i] != 0) return 0;
     memset(o, 0, sizeof *o);
-    if (given) {
-        given_size = given->size;
-        if (given_size < offsetof(options, cache) || given_size > OPTIONS_LARGEST) return 0;
-        if (given_size < sizeof *o && (given_size - offsetof(options, cache)) % sizeof(void *) != 0) return 0;
-        for (size_t i = sizeof *o; i < given_size; i++)
-            if (from[i] != 0) return 0;
-        memcpy(o, given, given_size < sizeof *o ? given_size : sizeof *o);
-    }
-    if (o->max_steps == 0) o->max_steps = 256;
-    if (o->max_steps > INT32_MAX / 4) o->max_steps = INT32_MAX / 4;
-    return o->abs_tol >= 0 && o->rel_tol >= 0 && o->cutoff >= 0 && o->slack >= 0 && bounded(o->abs_tol) &&
-           bounded(o->rel_tol) && bounded(o->cutoff) && bounded(o->slack) && o->tight <= 1;
+    memcpy(o, given, given_size < sizeof *o ? given_size : sizeof *o);
+    return 1;
+}
+
+/* What is asked: the caller's options, copied to own, or none. NULL: they say what makes no sense. */
+static const options *read_options(options *own, const options *given)
+{
+    static const options none = {.size = sizeof none, .max_steps = 256};
+    if (!given) return &none;
+    if (given->size == sizeof *own) *own = *given;
+    else if (!read_aged_options(own, given)) return NULL;
+    if (own->max_steps == 0) own->max_steps = none.max_steps;
+    if (own->max_steps > INT32_MAX / 4) own->max_steps = INT32_MAX / 4;
+    int fine = is_length(own->abs_tol) && is_length(own->rel_tol) && is_length(own->cutoff) && is_length(own->slack);
+    return fine && own->tight <= 1 ? own : NULL;
 }
 
 /* What a later query of this pair may start from. */
@@ -386,38 +393,40 @@ static int is_to_last_place(const result *r)
 
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
 {
-    options o;
+    options own;
+    const options *o = read_options(&own, given);
     search q;
     result r;
-    if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
+    if (!o || !out || !sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
               .radius = radius,
-              .abs_tol = o.abs_tol,
-              .rel_tol = o.rel_tol,
-              .exact = EXACT && o.slack == 0 && has_corners(a) && has_corners(b),
-              .max_steps = (int)o.max_steps};
-    if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
+              .abs_tol = o->abs_tol,
+              .rel_tol = o->rel_tol,
+              .exact = EXACT && o->slack == 0 && has_corners(a) && has_corners(b),
+              .max_steps = (int)o->max_steps};
+    if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
-    g.early = radius > 0 || o.abs_tol > 0 || o.rel_tol > 0;
+    g.early = radius > 0 || o->abs_tol > 0 || o->rel_tol > 0;
 
-    enum end end = solve(&q, a, b, &o, &g, &r);
+    enum end end = solve(&q, a, b, o, &g, &r);
     if (end == FAULT) return GJK_BAD_SUPPORT;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, &o, end, &q.d, radius, 0);
+    r.status = distance_status(&r, o, end, &q.d, radius, 0);
     *out = r;
     return r.status;
 }
 
 GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
 {
-    options o;
+    options own;
+    const options *o = read_options(&own, given);
     search q;
     result r;
-    if (!out || !sound(a) || !sound(b) || !read_options(&o, given)) return GJK_BAD_ARGUMENT;
+    if (!o || !out || !sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
               .within = radius * (1 - 16 * UNIT),
@@ -425,10 +434,10 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .abs_tol = -1, /* never */
               .early = radius > 0,
               .sign_only = 1,
-              .exact = EXACT && o.slack == 0 && has_corners(a) && has_corners(b),
-              .max_steps = (int)o.max_steps};
+              .exact = EXACT && o->slack == 0 && has_corners(a) && has_corners(b),
+              .max_steps = (int)o->max_steps};
 
-    enum end end = solve(&q, a, b, &o, &g, &r);
+    enum end end = solve(&q, a, b, o, &g, &r);
     if (end == FAULT) return GJK_BAD_SUPPORT;
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
@@ -450,28 +459,29 @@ static int has_workspace(const options *o)
 
 GJK_API int pub(penetration)(const shape *a, const shape *b, const options *given, result *out)
 {
-    options o;
+    options own;
+    const options *o = read_options(&own, given);
     search q;
     result r;
-    if (!out || !sound(a) || !sound(b) || !read_options(&o, given) || !has_workspace(&o)) return GJK_BAD_ARGUMENT;
+    if (!o || !out || !sound(a) || !sound(b) || !has_workspace(o)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
               .radius = radius,
-              .abs_tol = o.abs_tol,
-              .rel_tol = o.rel_tol,
-              .early = o.abs_tol > 0 || o.rel_tol > 0,
-              .exact = EXACT && o.slack == 0 && has_corners(a) && has_corners(b),
+              .abs_tol = o->abs_tol,
+              .rel_tol = o->rel_tol,
+              .early = o->abs_tol > 0 || o->rel_tol > 0,
+              .exact = EXACT && o->slack == 0 && has_corners(a) && has_corners(b),
               .deep = 1,
-              .max_steps = (int)o.max_steps};
-    g.tight = g.exact && o.tight;
-    if (o.cutoff > 0) g.beyond = (o.cutoff + radius) * (1 + 16 * UNIT);
+              .max_steps = (int)o->max_steps};
+    g.tight = g.exact && o->tight;
+    if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
 
-    enum end end = solve(&q, a, b, &o, &g, &r);
+    enum end end = solve(&q, a, b, o, &g, &r);
     if (end == FAULT) return GJK_BAD_SUPPORT;
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, &o, end, &q.d, radius, 1);
-    if (g.tight && r.status == GJK_OK && !narrow(&r, &o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
+    r.status = distance_status(&r, o, end, &q.d, radius, 1);
+    if (g.tight && r.status == GJK_OK && !narrow(&r, o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
     *out = r;
     return r.status;
 }

@@ -101,6 +101,7 @@ static vec take_side(const search *q, vec x, real weight[DIM + 1])
 static real certify(const search *q, real weight[DIM + 1])
 {
     weigh(&q->s, weight);
+    if (q->s.n == 1) return length(point(&q->s, 0)) * (1 + 8 * UNIT) + q->d.doubt;
     vec x = blend(&q->s, weight, offsetof(vertex, w), 1);
     x = take_side(q, take_back(q, x, weight), weight);
     return length(x) * (1 + 8 * UNIT) + q->d.doubt;
@@ -287,8 +288,7 @@ static int known(search *q, const vertex *p)
 /* Asks for the corner least along q->v, into the spare slot. */
 static int look(search *q)
 {
-    real reach[2];
-    if (!ask(&q->d, q->v, spare(&q->s), reach)) return 0;
+    if (!ask(&q->d, q->v, spare(&q->s))) return 0;
     known(q, spare(&q->s));
     return 1;
 }
@@ -372,8 +372,8 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     if (k->support[0] != a->support || k->support[1] != b->support) return 0;
     if (k->data[0] != a->data || k->data[1] != b->data) return 0;
     if (!(k->reach_a > 0 && k->reach_a <= REAL_MAX && k->reach_b > 0 && k->reach_b <= REAL_MAX)) return 0;
-    q->d.a.reach = k->reach_a;
-    q->d.b.reach = k->reach_b;
+    know_reach(&q->d.a, k->reach_a);
+    know_reach(&q->d.b, k->reach_b);
     if (!settle(&q->d, slack)) return 0;
     for (uint32_t i = 0; i < k->count; i++) {
         vertex *p = spare(&q->s);
@@ -387,7 +387,8 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     q->borrowed = (1u << k->count) - 1;
     project(q, 1);
     vec dir = vanished(q) ? away(q) : q->v;
-    if (!ask(&q->d, dir, &first, reach)) return 0;
+    if (!ask_first(&q->d, dir, &first, reach)) return 0;
+    first.w = corner_of(&q->d, first.x, first.y);
     if (reach[0] != 0 && reach[0] != k->reach_a) return 0;
     if (reach[1] != 0 && reach[1] != k->reach_b) return 0;
     q->repeated = known(q, &first);
@@ -404,12 +405,11 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
  * itself, one more corner is asked for, along v tilted a little toward one of them. */
 static int settled(search *q)
 {
-    real reach[2];
     vertex p;
     unsigned left = 0;
     for (int i = 0; i < q->s.n; i++) left |= q->borrowed & 1u << q->s.at[i];
     if (!q->lender || !left) return 1;
-    return ask(&q->d, away(q), &p, reach) && known(q, &p);
+    return ask(&q->d, away(q), &p) && known(q, &p);
 }
 
 #endif

@@ -21,19 +21,25 @@
 #include "shapes.h"
 #include "simplex.h"
 
+/* How the body's points are found once its support has answered for the first time, and with that for its data. */
+enum asked { BY_CALL, AS_BOX, AS_CLOUD };
+
 typedef struct body {
     support_fn *support;
     support_in *in; /* of a ready-made round set: asked instead, in the set's own unit */
     const void *data;
+    enum asked asked;
     real unit; /* a power of two: points and reach are the caller's times that */
-    int told;  /* the size was known before any call; */
-    int none;  /*   there is none: all points are 0 */
+    real size; /* to a binade or two, if known before any call; 0: all points are 0; else NaN */
     int posed;
-    real m[DIM * DIM]; /* the pose's map; once the scale is known, from points of size 1 to the scaled frame */
+    real m[DIM * DIM]; /* the pose's map; where sizes are wild, once the scale is known, from points of size 1 to the
+                          scaled frame */
     real stretch;      /* bounds the pose's map */
     real reach;        /* bounds the set's points, in its unit; 0: not known yet */
-    real grain;        /* the power of two that brings the set's points to size 1; without pose, to the frame */
-    real ease, lift;   /* powers of two for directions where sizes are wild: to size 1 for m, up to the set's size */
+    real limit;        /* no coordinate of a point is above this */
+    real grain;        /* the power of two that the set's points come times: to the frame; where sizes are wild and
+                          there is a pose, to size 1 */
+    real ease, lift;   /* powers of two for directions: to size 1 for m; where sizes are wild, up to the set's size */
 } body;
 
 typedef struct difference {
@@ -48,28 +54,57 @@ typedef struct difference {
 } difference;
 
 /* The reach in the caller's unit, and what there is of it. */
-static inline real extent(const body *k) { return k->none ? 0 : k->reach / k->unit; }
+static inline real extent(const body *k) { return k->size == 0 ? 0 : k->reach / k->unit; }
 
 /* Within the reach, and with that finite; the reach not known, just finite. */
 static inline int fits(const body *k, vec x)
 {
-    real limit = k->reach > 0 ? smaller(k->reach * (1 + 16 * UNIT), REAL_MAX) : REAL_MAX;
     int r = 1;
-    EACH(r &= size(x.c[i]) <= limit);
+    EACH(r &= size(x.c[i]) <= k->limit);
     return r;
 }
 
-/* The body's point farthest along d; 0 where the support's answer is no point of a set of that reach. */
-static inline int farthest(difference *d, body *k, vec dir, vec *x, real *reach)
+static inline void know_reach(body *k, real reach)
 {
-    if (d->wild) dir = mul(unit_size(dir), k->ease);
+    k->reach = reach;
+    k->limit = smaller(reach * (1 + 16 * UNIT), REAL_MAX);
+}
+
+static APART vec wild_direction(const body *k, vec dir)
+{
+    dir = mul(unit_size(dir), k->ease);
     if (k->posed) dir = pull(k->m, dir);
-    if (d->wild || !(peak(dir) > 1 / PLAIN)) dir = levelled(dir); /* 0: flattened by the map, all points equally far */
-    if (d->wild) dir = mul(dir, k->lift);
+    return mul(levelled(dir), k->lift);
+}
+
+/* As the body sees it. */
+static inline vec direction_for(const difference *d, const body *k, vec dir)
+{
+    if (d->wild) return wild_direction(k, dir);
+    if (k->posed) dir = pull(k->m, dir);
+    if (k->asked == BY_CALL) dir = mul(dir, k->ease);
+    return peak(dir) > 1 / PLAIN ? dir : levelled(dir); /* 0: flattened by the map, all points equally far */
+}
+
+/* The body's point farthest along a direction that it sees, from its support, with the reach; 0 where the answer is no
+ * point of a set of that reach. */
+static inline int call(difference *d, body *k, vec dir, vec *x, real *reach)
+{
     d->calls++;
     *x = nowhere();
     *reach = k->in ? k->in(k->unit, k->data, dir, x) : k->support(k->data, dir.c, x->c);
-    return *reach >= 0 && *reach <= REAL_MAX && fits(k, *x);
+    return is_length(*reach) && fits(k, *x);
+}
+
+/* The same, not for the first time. */
+static inline int farthest(difference *d, body *k, vec v, vec *x)
+{
+    vec dir = direction_for(d, k, v);
+    real reach;
+    if (k->asked == BY_CALL) return call(d, k, dir, x, &reach);
+    d->calls++;
+    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : corner_of_cloud(k->data, dir);
+    return fits(k, *x);
 }
 
 static inline vec place(const body *k, vec x)
@@ -115,12 +150,18 @@ static vec remainder_of(const difference *d, vec x, vec x_low, vec y, vec y_low,
 }
 
 /* The corner of the difference that lies least along v. */
-static inline int ask(difference *d, vec v, vertex *p, real reach[2])
+static inline int ask(difference *d, vec v, vertex *p)
 {
-    if (!farthest(d, &d->a, mul(v, -1), &p->x, &reach[0])) return 0;
-    if (!farthest(d, &d->b, v, &p->y, &reach[1])) return 0;
+    if (!farthest(d, &d->a, mul(v, -1), &p->x) || !farthest(d, &d->b, v, &p->y)) return 0;
     p->w = corner_of(d, p->x, p->y);
     return 1;
+}
+
+/* The same for the first time, from the supports, but for w; and the reaches that they tell. */
+static int ask_first(difference *d, vec v, vertex *p, real reach[2])
+{
+    return call(d, &d->a, direction_for(d, &d->a, mul(v, -1)), &p->x, &reach[0]) &&
+           call(d, &d->b, direction_for(d, &d->b, v), &p->y, &reach[1]);
 }
 
 /* Takes the reach that a support has said, or finds it. 0: there is none. */
@@ -128,7 +169,7 @@ static int measure(difference *d, body *k, real said, real slack)
 {
     if (said == 0) d->calls += SURVEY_CALLS;
     if (said == 0 && slack > 0) d->loose = 1;
-    k->reach = said == 0 ? surveyed(k->support, k->data, slack) : said;
+    know_reach(k, said == 0 ? surveyed(k->support, k->data, slack) : said);
     return k->reach <= REAL_MAX;
 }
 
@@ -137,36 +178,48 @@ static real lifting(real unit) { return smaller(larger(unit, 1), LIFT); }
 
 static void seize(body *k, const shape *s)
 {
+    view set = know(s);
     k->support = s->support;
     k->data = s->data;
-    k->posed = s->pose != NULL;
-    k->stretch = k->grain = k->ease = 1;
-    k->reach = 0;
-    view set = know(s);
+    k->asked = s->support == pub(support_points) ? AS_CLOUD : s->support == pub(support_box) ? AS_BOX : BY_CALL;
     k->in = set.in;
-    k->told = set.size >= 0;
-    k->none = set.size == 0;
-    k->unit = set.in ? set.unit : 1;
-    k->lift = set.in ? 1 : lifting(set.unit);
+    k->unit = set.in ? own_unit(&set) : 1;
+    k->size = set.size;
+    k->lift = set.in || !(set.size >= 0) ? 1 : lifting(leveler(set.size));
+    k->reach = 0;
+    k->limit = REAL_MAX;
+    k->stretch = k->grain = k->ease = 1;
+    k->posed = s->pose != NULL;
     if (!k->posed) return;
-    for (int i = 0; i < DIM * DIM; i++) k->m[i] = s->pose->m[i];
+    memcpy(k->m, s->pose->m, sizeof k->m);
     k->stretch = stretch(k->m);
     if (k->stretch > 0) k->ease = larger(leveler(k->stretch), (real)0.0625); /* nothing is lost on the way down */
 }
 
-/* The body's map and its points' grain, now that the scale is known. Where sizes are wild the map is scaled by its
+/* The size is known, and plain, as is the map's. */
+static int is_tame(const body *k) { return !unruly(k->stretch) && (k->size == 0 || !unruly(k->size)); }
+
+/* The body's map and its points' grain, where sizes are wild, now that the scale is known. The map is scaled by its
  * exponent, whose size need not be a number of the format; and what underflows all the same has no weight. */
-static void fit(body *k, real scale, int wild)
+static APART void fit_wild(body *k, real scale)
 {
     real level = leveler(k->reach);
+    int e = exponent_of(scale) - exponent_of(k->unit) - exponent_of(level);
     k->grain = k->posed ? level : scale / k->unit;
-    real plain = k->none ? 0 : scale / (k->unit * level);
-    for (int i = 0; i < DIM * DIM && k->posed; i++)
-        k->m[i] = !wild || k->none ? k->m[i] * plain
-                                   : raised(k->m[i], exponent_of(scale) - exponent_of(k->unit) - exponent_of(level));
-    if (!wild) return;
+    for (int i = 0; i < DIM * DIM && k->posed; i++) k->m[i] = k->size == 0 ? 0 : raised(k->m[i], e);
     k->ease = k->posed ? leveler(larger(stretch(k->m), REAL_MIN)) : 1;
-    if (!k->in) k->lift = lifting(level);
+    k->lift = k->in ? 1 : lifting(level);
+}
+
+/* How they are brought to the frame. Where sizes are plain the points take it all. */
+static void fit(body *k, real scale, int wild)
+{
+    if (wild) {
+        fit_wild(k, scale);
+        return;
+    }
+    k->grain = scale / k->unit;
+    k->ease = leveler(k->stretch);
 }
 
 /* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
@@ -211,7 +264,7 @@ static int start(difference *d, const shape *a, const shape *b)
         d->c_low.c[i] = c.low;
     }
     d->scale = 1;
-    d->wild = 1; /* until known better */
+    d->wild = !is_tame(&d->a) || !is_tame(&d->b); /* until known better */
     d->loose = 0;
     return bounded(d->a.stretch) && bounded(d->b.stretch);
 }
@@ -227,11 +280,11 @@ static vec first_direction(const difference *d)
 static int meet(difference *d, vec v, real slack, vertex *p)
 {
     real reach[2];
-    if (!ask(d, v, p, reach)) return 0;
+    if (!ask_first(d, v, p, reach)) return 0;
     if (!measure(d, &d->a, reach[0], slack) || !measure(d, &d->b, reach[1], slack) || !settle(d, slack)) return 0;
     /* now that directions are lifted */
-    if (!d->a.told && tiny(d->a.reach) && !farthest(d, &d->a, mul(v, -1), &p->x, &reach[0])) return 0;
-    if (!d->b.told && tiny(d->b.reach) && !farthest(d, &d->b, v, &p->y, &reach[1])) return 0;
+    if (!(d->a.size >= 0) && tiny(d->a.reach) && !farthest(d, &d->a, mul(v, -1), &p->x)) return 0;
+    if (!(d->b.size >= 0) && tiny(d->b.reach) && !farthest(d, &d->b, v, &p->y)) return 0;
     p->w = corner_of(d, p->x, p->y);
     return fits(&d->a, p->x) && fits(&d->b, p->y);
 }

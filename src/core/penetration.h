@@ -44,10 +44,9 @@ static tip tip_of(const search *q, const vertex *c, int known)
 static int ask_along(depth *d, vec n, tip *t)
 {
     vertex c;
-    real reach[2];
     vec v = mul(n, -1);
     d->q->steps++;
-    if (!ask(&d->q->d, v, &c, reach)) return 0;
+    if (!ask(&d->q->d, v, &c)) return 0;
     raise(d->q, v, c.w);
     *t = tip_of(d->q, &c, d->g->exact);
     return 1;

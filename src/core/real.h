@@ -102,6 +102,8 @@ static inline real signed_as(real x, real y)
 
 static inline int bounded(real x) { return size(x) <= REAL_MAX; }
 
+static inline int is_length(real x) { return x >= 0 && x <= REAL_MAX; }
+
 /* Not of a plain size: under- and overflow need care. NaN is unruly. */
 static inline int unruly(real x) { return !(x > 1 / PLAIN && x < PLAIN); }
 

@@ -104,15 +104,16 @@ static size_t settle_tie(const real *v, size_t n, size_t step, real reach, vec d
     return best;
 }
 
-/* Farthest of n points, the first among equals; n if one is not finite. The sum of height * 0 is 0 only if every
- * height, and with it every point, is. The rounding of two heights, 3 each, is within the licence of 8. */
-static inline size_t farthest_among(const real *v, size_t n, size_t step, real reach, vec d)
+/* Farthest of n points, the first among equals; unless they are trusted, n if one is not finite. The sum of height * 0
+ * is 0 only if every height, and with it every point, is. The rounding of two heights, 3 each, is within the licence
+ * of 8. */
+static inline size_t farthest_among(const real *v, size_t n, size_t step, real reach, vec d, int trusted)
 {
-    real highest = dot(load(v), d), second = -REAL_MAX, sum = highest * 0;
+    real highest = dot(load(v), d), second = -REAL_MAX, sum = trusted ? 0 : highest * 0;
     size_t best = 0;
     for (size_t i = 1; i < n; i++) {
         real height = dot(load(v + i * step), d);
-        sum += height * 0;
+        if (!trusted) sum += height * 0;
         if (height > highest) {
             second = highest;
             highest = height;
@@ -130,17 +131,31 @@ GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out
 {
     const points *p = data;
     if (!p || !cloud(p)) return refuse(out);
-    size_t step = stride_of(p), best = farthest_among(p->v, p->count, step, p->reach, load(dir));
+    size_t step = stride_of(p), best = farthest_among(p->v, p->count, step, p->reach, load(dir), 0);
     if (best == p->count) return refuse(out);
     store(out, load(p->v + best * step));
     return p->reach;
+}
+
+/* The same of points that it has answered for. */
+static inline vec corner_of_cloud(const points *p, vec dir)
+{
+    size_t step = stride_of(p);
+    return load(p->v + step * farthest_among(p->v, p->count, step, p->reach, dir, 1));
+}
+
+static inline vec corner_of_box(const box *b, vec dir)
+{
+    vec r;
+    EACH(r.c[i] = signed_as(b->half[i], dir.c[i]));
+    return r;
 }
 
 GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DIM])
 {
     const box *b = data;
     if (!b || !sized(b->half, DIM)) return refuse(out);
-    EACH(out[i] = signed_as(b->half[i], dir[i]));
+    store(out, corner_of_box(b, load(dir)));
     return at_most(load(b->half));
 }
 
@@ -149,7 +164,7 @@ static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], rea
 {
     real reach = 0;
     for (size_t i = 0; i < n; i++) reach = larger(at_most(load(v[i])), reach);
-    size_t best = farthest_among(v[0], n, DIM, smaller(reach, REAL_MAX), load(dir));
+    size_t best = farthest_among(v[0], n, DIM, smaller(reach, REAL_MAX), load(dir), 0);
     if (best == n || !(reach <= REAL_MAX)) return refuse(out);
     store(out, load(v[best]));
     return reach;
@@ -270,10 +285,12 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
 typedef struct view {
     support_in *in; /* of a ready-made round set: to be asked instead */
     real size;      /* to a binade or two, of a ready-made set; NaN: not known, or no set */
-    real unit;      /* a power of two: the set's size in it is 1; 1 where that is not known */
 } view;
 
-static view know(const shape *s);
+/* A power of two: the set's size in it is 1; 1 where that is not known. */
+static real own_unit(const view *k) { return k->size >= 0 ? leveler(k->size) : 1; }
+
+static inline view know(const shape *s);
 
 /* ---- two as one ---- */
 
@@ -296,12 +313,12 @@ static vec seen_by(const pose *p, real grows, real unit, vec dir)
 static real core_in(const view *k, const shape *s, vec dir, vec *x)
 {
     *x = nowhere();
-    if (k->in) return k->in(k->unit, s->data, dir, x);
+    if (k->in) return k->in(own_unit(k), s->data, dir, x);
     real reach = s->support(s->data, dir.c, x->c);
     if (reach == 0) reach = surveyed(s->support, s->data, 0);
     if (faint(reach)) reach += 16 * REAL_MIN;
-    *x = mul(*x, k->unit);
-    return reach * k->unit;
+    *x = mul(*x, own_unit(k));
+    return reach * own_unit(k);
 }
 
 /* A power of two that brings the map to size, and points of size 1 through it; of others it is not known what it would
@@ -320,11 +337,11 @@ static real part_in(real unit, const shape *s, vec dir, vec *out)
     real grows = p ? stretch(p->m) : 1;
     if (!s->support || !sized(&s->radius, 1) || !(grows <= REAL_MAX)) return (real)NAN;
     view k = know(s);
-    real reach = core_in(&k, s, seen_by(p, grows, k.unit, dir), out);
+    real reach = core_in(&k, s, seen_by(p, grows, own_unit(&k), dir), out);
     int found = reach > 0;
     if (k.size == 0) reach = 0;
     real level = level_for(&k, grows);
-    real back = grows > 0 ? raised(1, exponent_of(unit) - exponent_of(k.unit) - exponent_of(level)) : 0;
+    real back = grows > 0 ? raised(1, exponent_of(unit) - exponent_of(own_unit(&k)) - exponent_of(level)) : 0;
     if (p) {
         vec at = mul(load(p->p), unit);
         *out = add(mul(map(p->m, mul(*out, level)), back), at);
@@ -386,7 +403,7 @@ typedef struct ready {
     support_in *in; /* NULL: a hull of corners, which are numbers of the caller's */
 } ready;
 
-static ready ready_of(support_fn *f)
+static inline ready ready_of(support_fn *f)
 {
     if (f == pub(support_points)) return (ready){CLOUD, NULL};
     if (f == pub(support_box)) return (ready){DIM, NULL};
@@ -426,16 +443,16 @@ static real size_in_couple(const shape *s)
 
 static real size_of_couple(const couple *c) { return size_in_couple(&c->a) + size_in_couple(&c->b); }
 
-static view know(const shape *s)
+static inline view know(const shape *s)
 {
     ready k = ready_of(s->support);
-    view unknown = {NULL, (real)NAN, 1};
+    view unknown = {NULL, (real)NAN};
     real far = 0;
     if (k.data == UNKNOWN || (!s->data && k.data != 0)) return unknown;
     if (k.data == CLOUD) far = size_of_cloud(s->data);
     if (k.data == COUPLE) far = size_of_couple(s->data);
     for (int i = 0; i < k.data; i++) far = larger(size(((const real *)s->data)[i]), far);
-    return far <= REAL_MAX ? (view){k.in, far, leveler(far)} : unknown;
+    return far <= REAL_MAX ? (view){k.in, far} : unknown;
 }
 
 /* Whether the set is known to be the hull of corners that can be listed. */

@@ -60,7 +60,9 @@ static void normalize(real weight[DIM + 1], int n)
 /* The nearest point's weights. */
 static void weigh(const simplex *s, real weight[DIM + 1])
 {
-    for (int i = 0; i <= DIM; i++) weight[i] = 0;
+    for (int i = 1; i <= DIM; i++) weight[i] = 0;
+    weight[0] = 1;
+    if (s->n == 1) return;
     vec v;
     part(s, (1u << s->n) - 1, 0, &v, weight);
     normalize(weight, s->n);
