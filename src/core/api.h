@@ -3,7 +3,7 @@
 #ifndef GJK_CORE_API_H
 #define GJK_CORE_API_H
 
-#include "contact.h"
+#include "fine.h"
 #include "intersect.h"
 #include "widen.h"
 
@@ -190,6 +190,14 @@ static void witness(result *r, const search *q, const real weight[], const shape
     store(r->point_b, in_range(mul(on_b, 1 / level)));
 }
 
+/* The cores may be as near to each other, or the shapes to contact, as rounding hides; or rounding does not explain the
+ * width of the bracket. */
+static int is_doubtful(const search *q, const goal *g, real upper)
+{
+    real near = g->radius * q->d.scale, margin = 32 * q->d.doubt + 16 * UNIT * near;
+    return (q->lower <= near + margin && upper >= near - margin) || q->stuck || coarse(q, upper);
+}
+
 /* The search has ended at what rounding can tell, and that is not enough: the sign is open; or so near to contact the
  * way of v is noise; or the caller asks for all digits, or gets fewer than rounding explains, or a corner that promised
  * to be nearer was not; or the weights of a thin full simplex miss the origin. */
@@ -199,6 +207,7 @@ static int unanswered(const search *q, const result *r, const options *o, const 
     real near = g->radius * q->d.scale, margin = (real)(g->sign_only ? 8 : 32) * q->d.doubt + 16 * UNIT * near;
     if (g->deep && upper < 0) return 0;
     if (r->lower <= 0 && r->upper > 0) return 1;
+    if (q->fine) return 0;
     if (g->sign_only && r->lower > 0) return 0;
     if (q->lower <= near + margin && upper >= near - margin) return 1;
     if (g->deep && q->lower <= margin) return 1;
@@ -238,13 +247,13 @@ static APART enum end tighten(search *q, const shape *a, const shape *b, const g
 static void answer(const search *q, const shape *a, const shape *b, const goal *g, real upper, const real weight[],
                    result *r)
 {
-    bracket(r, &q->d, q->lower, upper, a, b);
     store(r->normal, q->normal);
     witness(r, q, weight, a, b, g->deep);
     r->value = 0;
     if (g->sign_only) return;
-    real low = q->lower + q->d.doubt - 2 * UNIT * (size(q->lower) + q->d.doubt);
-    real high = upper - q->d.doubt + 2 * UNIT * (size(upper) + q->d.doubt);
+    real doubt = q->fine ? 0 : q->d.doubt;
+    real low = q->lower + doubt - 2 * UNIT * (size(q->lower) + doubt);
+    real high = upper - doubt + 2 * UNIT * (size(upper) + doubt);
     twin l = refine(q, weight);
     if (l.high > high) l = (twin){high, 0};
     if (l.high < low) l = (twin){low, 0};
@@ -357,7 +366,10 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     int still = end == STILL || end == INSIDE;
     /* the distance of known corners needs no probing, the exact finish tells more; overlap does */
     int probed = still && !g->deep && (g->sign_only || !g->exact);
-    if (end == FAULT || (probed && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
+    int tried = still && g->exact && !o->tight && is_doubtful(q, g, upper);
+    int settled = tried && settle_apart(q, a, b, g, weight, &upper);
+    if (end == FAULT || (probed && !settled && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
+    bracket(r, &q->d, q->lower, upper, a, b);
     answer(q, a, b, g, upper, weight, r);
     if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
     else if (still) further = take_further(q, a, b, o, g, upper, weight, r);

@@ -38,19 +38,29 @@ static real length_above(vec v, vec v_low)
     return square.high > UNIT * UNIT ? root_of(square).high * (1 + 2 * UNIT) : length(add(v, v_low)) * (1 + 8 * UNIT);
 }
 
-/* Bounds of cores that are apart and known by their corners, to next to no rounding: for shapes whose radii overlap.
- * From above: the one pair of points that the weights single out. It is in the sets: the shares of the others add up to
- * no more than 3/4, as none is above that of the corner they start from. */
-static void bound_apart(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1],
-                        real *upper)
+/* The one corner of A - B that the weights single out, to twice the digits. It is in A - B: the shares of the others
+ * add up to no more than 3/4, as none is above that of the corner they start from. */
+static vec fine_pair(const search *q, const real weight[DIM + 1], vec *low)
 {
-    depth d = {.q = q, .a = a, .b = b, .g = g};
     int from = 0;
     for (int k = 1; k < q->s.n; k++) from = weight[k] > weight[from] ? k : from;
     vec x_low, x = exact_blend(&q->s, weight, from, offsetof(vertex, x), q->d.a.grain, &x_low);
     vec y_low, y = exact_blend(&q->s, weight, from, offsetof(vertex, y), q->d.b.grain, &y_low);
-    vec high = blend(&q->s, weight, offsetof(vertex, w), 1), low = remainder_of(&q->d, x, x_low, y, y_low, high);
-    *upper = smaller(*upper, length_above(high, low) + 256 * UNIT * UNIT);
+    vec high = blend(&q->s, weight, offsetof(vertex, w), 1);
+    *low = remainder_of(&q->d, x, x_low, y, y_low, high);
+    return high;
+}
+
+/* A bound from above: that corner's length. */
+static real fine_length(vec high, vec low) { return length_above(high, low) + 256 * UNIT * UNIT; }
+
+/* Bounds of cores that are apart, from both sides: for shapes whose radii overlap. */
+static void bound_apart(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1],
+                        real *upper)
+{
+    depth d = {.q = q, .a = a, .b = b, .g = g};
+    vec low, high = fine_pair(q, weight, &low);
+    *upper = smaller(*upper, fine_length(high, low));
     bound_along(&d, q->normal);
 }
 

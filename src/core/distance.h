@@ -53,6 +53,7 @@ typedef struct search {
     int stuck;     /* because it brought v no nearer, although it lies lower along v */
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
+    int fine;            /* the bounds are those of corners known to twice the digits, and carry no doubt */
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
@@ -337,6 +338,7 @@ static void blank(search *q)
     q->steps = 0;
     q->lender = NULL;
     q->borrowed = 0;
+    q->fine = 0;
 }
 
 /* A direction along which the simplex's first corner is likely the least: v, tilted away from the others. */
