@@ -46,22 +46,80 @@ static void strip(dyadic *r)
     if (r->n == 0 || r->n > LIMBS) *r = nought(r->n > 0);
 }
 
-static dyadic dyadic_of(real x)
+/* A number's digits in three limbs, the lowest of them counting units of 2^(32 low). */
+typedef struct digits {
+    int low;
+    uint32_t limb[3];
+} digits;
+
+static inline digits digits_of(real x)
 {
     bits b;
     memcpy(&b, &x, sizeof b);
     int exponent = (int)(b >> MANTISSA & EXPONENT_MAX);
-    uint64_t digits = b & (((bits)1 << MANTISSA) - 1);
-    if (exponent > 0) digits |= (bits)1 << MANTISSA;
+    uint64_t whole = b & (((bits)1 << MANTISSA) - 1);
+    if (exponent > 0) whole |= (bits)1 << MANTISSA;
     int at = (exponent > 0 ? exponent : 1) - (int)(EXPONENT_MAX >> 1) - MANTISSA + 2048; /* not negative */
-    uint64_t above = digits >> (32 - at % 32);
+    uint64_t above = whole >> (32 - at % 32);
+    return (digits){
+        at / 32 - 64,
+        {(uint32_t)(whole << at % 32 & 0xffffffffu), (uint32_t)(above & 0xffffffffu), (uint32_t)(above >> 32)}};
+}
+
+static dyadic dyadic_of(real x)
+{
+    digits d = digits_of(x);
     dyadic r = nought(0);
     r.sign = x < 0 ? -1 : 1;
-    r.low = at / 32 - 64;
+    r.low = d.low;
     r.n = 3;
-    r.limb[0] = (uint32_t)(digits << at % 32 & 0xffffffffu);
-    r.limb[1] = (uint32_t)(above & 0xffffffffu);
-    r.limb[2] = (uint32_t)(above >> 32);
+    for (int i = 0; i < 3; i++) r.limb[i] = d.limb[i];
+    strip(&r);
+    return r;
+}
+
+/* The limbs are those of a number below 0, as a machine has it: makes them its size. */
+static void negate(dyadic *r)
+{
+    uint64_t carry = 1;
+    r->sign = -r->sign;
+    for (int i = 0; i < r->n; i++) {
+        carry += r->limb[i] ^ 0xffffffffu;
+        r->limb[i] = (uint32_t)(carry & 0xffffffffu);
+        carry >>= 32;
+    }
+}
+
+#define MOST_TERMS 16
+
+/* The sum of so few numbers that a limb's sums never overflow. */
+static dyadic total_of(const real *x, int n)
+{
+    digits d[MOST_TERMS];
+    int64_t sum[LIMBS + 2], carry = 0;
+    int low = INT32_MAX, high = INT32_MIN;
+    dyadic r = nought(0);
+    for (int i = 0; i < n; i++) {
+        if (x[i] == 0) continue;
+        d[i] = digits_of(x[i]);
+        low = d[i].low < low ? d[i].low : low;
+        high = d[i].low > high ? d[i].low : high;
+    }
+    if (low > high) return r;
+    r.low = low;
+    r.n = high - low + 4; /* three, and one for what is carried */
+    if (r.n > LIMBS + 2) return nought(1);
+    for (int i = 0; i < r.n; i++) sum[i] = 0;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3 && x[i] != 0; k++)
+            sum[d[i].low - low + k] += x[i] < 0 ? -(int64_t)d[i].limb[k] : (int64_t)d[i].limb[k];
+    for (int i = 0; i < r.n; i++) {
+        carry += sum[i];
+        r.limb[i] = (uint32_t)((uint64_t)carry & 0xffffffffu);
+        carry = (carry - (int64_t)r.limb[i]) / 0x100000000;
+    }
+    r.sign = 1;
+    if (carry < 0) negate(&r);
     strip(&r);
     return r;
 }
@@ -91,15 +149,7 @@ static dyadic plus(const dyadic *a, const dyadic *b, int sign)
         r.limb[i] = (uint32_t)(carry & 0xffffffffu);
         carry >>= 32;
     }
-    if (flip && !carry) { /* the other way around */
-        r.sign = -r.sign;
-        carry = 1;
-        for (int i = 0; i < r.n; i++) {
-            carry += r.limb[i] ^ flip;
-            r.limb[i] = (uint32_t)(carry & 0xffffffffu);
-            carry >>= 32;
-        }
-    }
+    if (flip && !carry) negate(&r);
     strip(&r);
     return r;
 }

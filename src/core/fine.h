@@ -63,7 +63,7 @@ static int is_inside(const search *q, const real weight[DIM + 1], vec off)
 static APART int settle_apart(search *q, const shape *a, const shape *b, const goal *g, real weight[DIM + 1],
                               real *upper)
 {
-    for (int i = 0; i < FINE_ROUNDS && q->s.n <= DIM; i++) {
+    for (int i = 0; i < FINE_ROUNDS && q->s.n <= DIM && !vanished(q); i++) {
         depth d = {.q = q, .a = a, .b = b, .g = g};
         vertex c;
         vec low, w = fine_pair(q, weight, &low), v = square_to_edges(q, add(w, low)), n = mul(v, -1 / length(v));

@@ -311,12 +311,48 @@ static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
 
 /* ---- the search ---- */
 
+/* Adds sign times coordinate i of the corner x, placed, to terms without rounding. Returns how many there are then; 0
+ * where products are too large or too small for that. */
+static int add_terms(const shape *s, vec x, int i, real sign, real *terms, int n)
+{
+    if (!s->pose) {
+        terms[n++] = sign * x.c[i];
+        return n;
+    }
+    terms[n++] = sign * s->pose->p[i];
+    for (int j = 0; j < DIM; j++) {
+        real m = sign * s->pose->m[DIM * i + j];
+        if (m == 0 || x.c[j] == 0) continue;
+        twin p = product_of(m, x.c[j]);
+        if (unruly(size(m)) || unruly(size(x.c[j])) || unruly(size(p.high))) return 0;
+        terms[n++] = p.high;
+        terms[n++] = p.low;
+    }
+    return n;
+}
+
+/* The corner of the difference, term by term; or, of numbers that are not plain, by what always works. */
+static dyadics corner_without_rounding(const finish *f, vec x, vec y)
+{
+    dyadics r;
+    for (int i = 0; i < DIM; i++) {
+        real terms[MOST_TERMS];
+        int n = add_terms(f->a, x, i, 1, terms, 0);
+        if (n > 0) n = add_terms(f->b, y, i, -1, terms, n);
+        if (n == 0) {
+            dyadics a = placed(f->a, x), b = placed(f->b, y);
+            return difference_of(&a, &b);
+        }
+        r.c[i] = total_of(terms, n);
+    }
+    return r;
+}
+
 static void take_in(finish *f, vec x, vec y)
 {
-    dyadics a = placed(f->a, x), b = placed(f->b, y);
     f->x[f->n] = x;
     f->y[f->n] = y;
-    f->w[f->n++] = difference_of(&a, &b);
+    f->w[f->n++] = corner_without_rounding(f, x, y);
 }
 
 /* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; OPEN: max_steps are used up; FAULT:
