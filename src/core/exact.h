@@ -24,12 +24,25 @@ static inline real upper_half(real a)
     return t - (t - a);
 }
 
-static inline twin product_of(real a, real b)
+typedef struct halves {
+    real upper, lower;
+} halves;
+
+static inline halves halves_of(real a)
 {
-    real p = a * b, ah = upper_half(a), al = a - ah, bh = upper_half(b), bl = b - bh;
-    twin r = {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+    real upper = upper_half(a);
+    return (halves){upper, a - upper};
+}
+
+/* The product of two numbers that are split already. */
+static inline twin product_of_halves(real a, halves h, real b, halves k)
+{
+    real p = a * b;
+    twin r = {p, ((h.upper * k.upper - p) + h.upper * k.lower + h.lower * k.upper) + h.lower * k.lower};
     return r;
 }
+
+static inline twin product_of(real a, real b) { return product_of_halves(a, halves_of(a), b, halves_of(b)); }
 
 static inline twin product_of_twins(twin a, twin b)
 {

@@ -21,6 +21,9 @@
 #include "shapes.h"
 #include "simplex.h"
 
+/* Directions are brought down no farther before they pass through a map, so that none of their digits underflow. */
+#define EASE ((real)0.0625)
+
 /* How the body's points are found once its support has answered for the first time, and with that for its data. */
 enum asked { BY_CALL, AS_BOX, AS_CLOUD };
 
@@ -39,7 +42,8 @@ typedef struct body {
     real limit;        /* no coordinate of a point is above this */
     real grain;        /* the power of two that the set's points come times: to the frame; where sizes are wild and
                           there is a pose, to size 1 */
-    real ease, lift;   /* powers of two for directions: to size 1 for m; where sizes are wild, up to the set's size */
+    real ease, rest;   /* powers of two for directions: to size 1 for m, as far as EASE goes; and the rest of the way */
+    real lift;         /* where sizes are wild: up to the set's size */
 } body;
 
 typedef struct difference {
@@ -54,7 +58,7 @@ typedef struct difference {
 } difference;
 
 /* The reach in the caller's unit, and what there is of it. */
-static inline real extent(const body *k) { return k->size == 0 ? 0 : k->reach / k->unit; }
+static inline real extent(const body *k) { return k->size == 0 ? 0 : k->in ? k->reach / k->unit : k->reach; }
 
 /* Within the reach, and with that finite; the reach not known, just finite. */
 static inline int fits(const body *k, vec x)
@@ -81,8 +85,8 @@ static APART vec wild_direction(const body *k, vec dir)
 static inline vec direction_for(const difference *d, const body *k, vec dir)
 {
     if (d->wild) return wild_direction(k, dir);
-    if (k->posed) dir = pull(k->m, dir);
-    if (k->asked == BY_CALL) dir = mul(dir, k->ease);
+    if (k->posed) dir = pull(k->m, mul(dir, k->ease));
+    if (k->asked == BY_CALL) dir = mul(dir, k->rest);
     return peak(dir) > 1 / PLAIN ? dir : levelled(dir); /* 0: flattened by the map, all points equally far */
 }
 
@@ -121,16 +125,20 @@ static inline vec corner_of(const difference *d, vec x, vec y)
 /* Adds sign times the body's point x, to twice the digits; x is times its grain, with what rounding took. */
 static inline void gather_point(twin sum[DIM], const body *k, real sign, vec x, vec low)
 {
+    halves h[DIM];
     for (int i = 0; i < DIM; i++) {
-        if (!k->posed) {
-            gather(&sum[i], (twin){sign * x.c[i], sign * low.c[i]});
-            continue;
-        }
+        h[i] = halves_of(x.c[i]);
+        if (!k->posed) gather(&sum[i], (twin){sign * x.c[i], sign * low.c[i]});
+    }
+    for (int i = 0; i < DIM && k->posed; i++) {
+        twin s = sum[i];
         for (int j = 0; j < DIM; j++) {
             real m = sign * k->m[DIM * i + j];
-            gather(&sum[i], product_of(m, x.c[j]));
-            sum[i].low += m * low.c[j];
+            twin p = product_of_halves(m, halves_of(m), x.c[j], h[j]);
+            p.low += m * low.c[j];
+            gather(&s, p);
         }
+        sum[i] = s;
     }
 }
 
@@ -185,15 +193,20 @@ static void seize(body *k, const shape *s)
     k->in = set.in;
     k->unit = set.in ? own_unit(&set) : 1;
     k->size = set.size;
-    k->lift = set.in || !(set.size >= 0) ? 1 : lifting(leveler(set.size));
     k->reach = 0;
     k->limit = REAL_MAX;
-    k->stretch = k->grain = k->ease = 1;
+    k->stretch = k->grain = k->ease = k->rest = k->lift = 1;
     k->posed = s->pose != NULL;
     if (!k->posed) return;
     memcpy(k->m, s->pose->m, sizeof k->m);
     k->stretch = stretch(k->m);
-    if (k->stretch > 0) k->ease = larger(leveler(k->stretch), (real)0.0625); /* nothing is lost on the way down */
+}
+
+/* How directions are brought to size before the reach is known. */
+static APART void seize_wild(body *k)
+{
+    if (!k->in && k->size >= 0) k->lift = lifting(leveler(k->size));
+    if (k->stretch > 0 && k->posed) k->ease = larger(leveler(k->stretch), EASE);
 }
 
 /* The size is known, and plain, as is the map's. */
@@ -218,8 +231,9 @@ static void fit(body *k, real scale, int wild)
         fit_wild(k, scale);
         return;
     }
-    k->grain = scale / k->unit;
-    k->ease = leveler(k->stretch);
+    k->grain = k->in ? scale / k->unit : scale;
+    k->ease = larger(leveler(k->stretch), EASE);
+    k->rest = leveler(k->stretch) / k->ease;
 }
 
 /* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
@@ -265,6 +279,10 @@ static int start(difference *d, const shape *a, const shape *b)
     }
     d->scale = 1;
     d->wild = !is_tame(&d->a) || !is_tame(&d->b); /* until known better */
+    if (d->wild) {
+        seize_wild(&d->a);
+        seize_wild(&d->b);
+    }
     d->loose = 0;
     return bounded(d->a.stretch) && bounded(d->b.stretch);
 }

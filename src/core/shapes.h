@@ -95,9 +95,11 @@ static size_t settle_tie(const real *v, size_t n, size_t step, real reach, vec d
     vec top = load(v + best * step);
     real highest = 0, leave = 2 * UNIT * reach * peak(d);
     for (size_t i = 0; i < n; i++) {
-        vec x = load(v + i * step), e = sub(x, top);
+        vec x = load(v + i * step);
+        if (!(dot(x, d) >= almost)) continue;
+        vec e = sub(x, top);
         real rise = dot(e, d), doubt = 4 * UNIT * dot_size(e, d);
-        if (!(dot(x, d) >= almost) || !(rise > highest) || !(rise > doubt || doubt <= leave)) continue;
+        if (!(rise > highest) || !(rise > doubt || doubt <= leave)) continue;
         highest = rise;
         best = i;
     }
