@@ -48,8 +48,10 @@ static const options *read_options(options *own, const options *given)
 }
 
 /* What a later query of this pair may start from. */
-static void remember(cache *k, const search *q, const shape *a, const shape *b)
+static void remember(cache *k, search *q, const shape *a, const shape *b)
 {
+    if (q->kept) return;
+    q->kept = 1;
     int n = q->s.n, lent = 1;
     for (int i = 0; i < n; i++) lent &= (int)(q->borrowed >> q->s.at[i] & 1);
     if (lent && q->repeated) return; /* nothing new: the cache may hold more than this simplex */
@@ -94,6 +96,10 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         if (warm || open_cold(q, a, b, o->slack)) {
             goal here = scaled(g, q->d.scale);
             end = search_on(q, &here, upper, weight);
+            if (end == BEYOND && g->sign_only && q->lender) {
+                remember(o->cache, q, a, b); /* the borrowed corners with it, for the next query */
+                *upper = stand_on_last(q, weight);
+            }
         }
         if (end != FAULT) {
             if (end == INSIDE && room(&q->s) > q->d.doubt) *upper = q->d.doubt - room(&q->s);
@@ -121,6 +127,7 @@ static int tell(search *q, const goal *g, real *upper, enum end *end)
  * to what is reckoned in that unit no other makes a difference. */
 static real level_of(const difference *d, real radius, real far)
 {
+    if (radius == 0 && far == 0) return d->scale;
     return smaller(d->scale, smaller(leveler(size(radius)), leveler(far))); /* a radius may be -0 */
 }
 
@@ -169,8 +176,9 @@ static real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 
  * across, both move to one point between. */
 static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b, int deep)
 {
-    real radius = a->radius + b->radius, level = level_of(&q->d, radius, larger(far_out(a), far_out(b)));
-    real down = level * q->d.unscale;
+    real radius = a->radius + b->radius, far = larger(far_out(a), far_out(b));
+    int plain = !q->d.wild && far < PLAIN && radius < PLAIN;
+    real level = plain ? 1 : level_of(&q->d, radius, far), down = level * q->d.unscale;
     vec on_a = witness_of(&q->d.a, a->pose, &q->s, weight, offsetof(vertex, x), down, level);
     vec on_b = witness_of(&q->d.b, b->pose, &q->s, weight, offsetof(vertex, y), down, level);
     vec way = blend(&q->s, weight, offsetof(vertex, w), 1);
@@ -186,8 +194,8 @@ static void witness(result *r, const search *q, const real weight[], const shape
         on_a = add(on_a, mul(toward_b, a->radius * level));
         on_b = sub(on_b, mul(toward_b, b->radius * level));
     }
-    store(r->point_a, in_range(mul(on_a, 1 / level)));
-    store(r->point_b, in_range(mul(on_b, 1 / level)));
+    store(r->point_a, plain ? on_a : in_range(mul(on_a, 1 / level)));
+    store(r->point_b, plain ? on_b : in_range(mul(on_b, 1 / level)));
 }
 
 /* The cores may be as near to each other, or the shapes to contact, as rounding hides; or rounding does not explain the
@@ -370,9 +378,10 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     int settled = tried && settle_apart(q, a, b, g, weight, &upper);
     if (end == FAULT || (probed && !settled && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     bracket(r, &q->d, q->lower, upper, a, b);
-    answer(q, a, b, g, upper, weight, r);
+    if (still && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
+    if (further != STILL) answer(q, a, b, g, upper, weight, r);
     if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
-    else if (still) further = take_further(q, a, b, o, g, upper, weight, r);
+    else if (still && !g->exact) further = take_further(q, a, b, o, g, upper, weight, r);
     if (end == FAULT) return FAULT;
     if (o->cache) remember(o->cache, q, a, b);
     r->steps = q->steps;

@@ -57,6 +57,7 @@ typedef struct search {
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
+    int kept;            /* the cache has been written, and is to stay as it is */
 } search;
 
 /* |v| is below half a rounding of the frame, which is of size 1 to 2: it has no direction. */
@@ -84,9 +85,9 @@ static vec take_back(const search *q, vec x, real weight[DIM + 1])
 /* A simplex too narrow for that is no better than its sides: takes the weights of the best side, if that is nearer. */
 static vec take_side(const search *q, vec x, real weight[DIM + 1])
 {
+    if (q->s.n == 1 || !(peak(sub(x, q->v)) > 4 * UNIT)) return x;
     simplex side = q->s;
     real better[DIM + 1];
-    if (side.n == 1 || !(peak(sub(x, q->v)) > 4 * UNIT)) return x;
     nearest_of_all(&side, 0, 0, 0);
     weigh(&side, better);
     vec y = blend(&side, better, offsetof(vertex, w), 1);
@@ -175,7 +176,10 @@ static inline void raise(search *q, vec v, vec w)
     q->normal = mul(v, -k);
 }
 
-static int repeats(const vertex *p, const vertex *q) { return same(p->x, q->x) & same(p->y, q->y); }
+static int repeats(const vertex *p, const vertex *q)
+{
+    return p->x.c[0] == q->x.c[0] && p->y.c[0] == q->y.c[0] && same(p->x, q->x) && same(p->y, q->y);
+}
 
 /* Takes the corner in the spare slot into the simplex. 0, and nothing changed, where that brings v no nearer. Near
  * contact |v| is noise of a rounding of the corners, while their gap may still promise more than that: up to SIDESTEPS
@@ -339,6 +343,7 @@ static void blank(search *q)
     q->lender = NULL;
     q->borrowed = 0;
     q->fine = 0;
+    q->kept = 0;
 }
 
 /* A direction along which the simplex's first corner is likely the least: v, tilted away from the others. */
@@ -412,6 +417,19 @@ static int settled(search *q)
     for (int i = 0; i < q->s.n; i++) left |= q->borrowed & 1u << q->s.at[i];
     if (!q->lender || !left) return 1;
     return ask(&q->d, away(q), &p) && known(q, &p);
+}
+
+/* Where the corner handed out last proves the sets apart, and that is all that is asked, it alone is the simplex:
+ * whether borrowed corners are good is of no account then. Returns the bound from above. */
+static real stand_on_last(search *q, real weight[DIM + 1])
+{
+    simplex *s = &q->s;
+    int last = s->at[s->n];
+    s->at[s->n] = s->at[0];
+    s->at[0] = last;
+    s->n = 1;
+    q->pending = 0;
+    return certify(q, weight);
 }
 
 #endif
