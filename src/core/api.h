@@ -262,7 +262,7 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
     real doubt = q->fine ? 0 : q->d.doubt;
     real low = q->lower + doubt - 2 * UNIT * (size(q->lower) + doubt);
     real high = upper - doubt + 2 * UNIT * (size(upper) + doubt);
-    twin l = refine(q, weight);
+    twin l = q->fine ? q->apart : refine(q, weight);
     if (l.high > high) l = (twin){high, 0};
     if (l.high < low) l = (twin){low, 0};
     twin value = sum_of(l.high, -g->radius * q->d.scale);

@@ -54,6 +54,7 @@ typedef struct search {
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
     int fine;            /* the bounds are those of corners known to twice the digits, and carry no doubt */
+    twin apart;          /* then: the cores' distance */
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
@@ -148,11 +149,9 @@ static int sharpen(search *q, const real weight[DIM + 1])
     return 1;
 }
 
-/* |v| to more digits than one number can say: the height of the corner that the weights single out, along v made square
- * to the simplex. What the weights are off moves that corner across v, and so counts for nothing. */
-static twin refine(const search *q, const real weight[DIM + 1])
+/* The height of w along v, to more digits than one number can say. */
+static twin height_to_twice(vec v, vec w, vec w_low)
 {
-    vec w_low, w = single_out(q, weight, &w_low), v = square_to(&q->s, add(w, w_low));
     real l = length(v);
     if (!(l > 0)) return (twin){0, 0};
     twin along = {0, dot(v, w_low)}, square = product_of(-l, l);
@@ -164,6 +163,14 @@ static twin refine(const search *q, const real weight[DIM + 1])
     twin back = product_of(-height, l);
     gather(&back, along);
     return (twin){height, (back.high + back.low - height * (square.high + square.low) / (2 * l)) / l};
+}
+
+/* |v| to more digits than one number can say: the height of the corner that the weights single out, along v made square
+ * to the simplex. What the weights are off moves that corner across v, and so counts for nothing. */
+static twin refine(const search *q, const real weight[DIM + 1])
+{
+    vec w_low, w = single_out(q, weight, &w_low);
+    return height_to_twice(square_to(&q->s, add(w, w_low)), w, w_low);
 }
 
 /* The height of w, the corner least along v, bounds the separation from below. */

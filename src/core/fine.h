@@ -73,6 +73,7 @@ static APART int settle_apart(search *q, const shape *a, const shape *b, const g
             q->lower = lower;
             q->normal = n;
             q->fine = 1;
+            if (!g->sign_only) q->apart = height_to_twice(v, w, low);
             *upper = smaller(*upper, high);
             return 1;
         }
