@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Adds the peers of one module. Whether it could be loaded. */
+/* Adds the peers of one module, all or none. Whether it could be loaded. */
 static int load_module(peer_list *list, const char *path)
 {
     peers_fn *peers;
@@ -27,7 +27,11 @@ static int load_module(peer_list *list, const char *path)
     }
     memcpy(&peers, &symbol, sizeof peers); /* C has no cast from object to function */
     all = peers(&count);
-    for (int k = 0; k < count && list->count < MOST_PEERS; k++) {
+    if (count > MOST_PEERS - list->count) {
+        fprintf(stderr, "too many peers\n");
+        return 0;
+    }
+    for (int k = 0; k < count; k++) {
         list->all[list->count++] = &all[k];
     }
     return 1;

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include "fed.h"
 
-#define MOST_PEERS 160
+#define MOST_PEERS 256
 #define MOST_MODULES 16
 
 typedef struct peer_list {

@@ -55,12 +55,13 @@ static int takes_all(const peer *p)
     return 1;
 }
 
-/* Of pairs in float those in double are asked, too, as they come; never the other way round. What is kept in mind helps
- * along a path only. */
+/* Of pairs in float those in double are asked, too, as they come, where they can be told them; never the other way
+ * round. What is kept in mind helps along a path only. */
 static int is_asked(const peer *p, enum question question)
 {
-    int fits = p->single == block.single || (p->usual && p->single < block.single);
-    return fits && p->query[question] && (p->memory == 0 || block.track > 0) && takes_all(p);
+    int above = p->usual && p->single < block.single && p->poses != ROTATIONS;
+    return (p->single == block.single || above) && p->query[question] && (p->memory == 0 || block.track > 0) &&
+           takes_all(p);
 }
 
 /* Instructions are counted, and growth is told, of those that are set as usual; growth with the accuracy of those whose

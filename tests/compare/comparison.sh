@@ -6,7 +6,7 @@
 #   sh tests/compare/comparison.sh [PAIRS [ROUNDS [SEED [OUT]]]]     of each class, of timing; default 100, 21, 1, docs
 #
 # Peers are used where they are installed (Debian: libccd-dev libbox2d-dev libfcl-dev libbullet-dev), as their packagers
-# compiled them; Box2D 3 also by way of cargo, compiled as the library is. GJK_COMPARE_LIBCCD in the environment, a
+# compiled them; Box2D 3 and parry by way of cargo, compiled as the library is. Who cannot be had is named as missing. GJK_COMPARE_LIBCCD in the environment, a
 # folder with sources of libccd, has that compiled so, too. Instructions are counted where valgrind is installed. The
 # build stays in build/comparison. Ends with 1 where the library failed; the page is written even so.
 set -eu
@@ -16,7 +16,7 @@ build=build/comparison # its log lies beside it
 out=$build/tests/compare
 mkdir -p build
 
-cmake -S . -B $build -DCMAKE_BUILD_TYPE=Release -DGJK_COMPARE_CARGO=ON \
+cmake -S . -B $build -DCMAKE_BUILD_TYPE=Release -DGJK_COMPARE_CARGO=ON -DGJK_COMPARE_PACKAGES=ON \
     "-DGJK_COMPARE_LIBCCD=${GJK_COMPARE_LIBCCD:-}" >$build.log 2>&1 || { cat $build.log; exit 2; }
 grep '^-- Peer' $build.log
 cmake --build $build --parallel "$(nproc)" --target comparison >$build.log 2>&1 || { cat $build.log; exit 2; }

@@ -11,6 +11,7 @@ extern "C" {
 #endif
 
 enum peer_core { PEER_POINTS, PEER_BOX, PEER_SEGMENT, PEER_CYLINDER, PEER_CONE, PEER_ELLIPSOID, PEER_ORIGIN };
+#define ROTATIONS 2
 #define CORE(name) (1u << PEER_##name)
 #define ALL_CORES                                                                                                      \
     (CORE(POINTS) | CORE(BOX) | CORE(SEGMENT) | CORE(CYLINDER) | CORE(CONE) | CORE(ELLIPSOID) | CORE(ORIGIN))
@@ -55,7 +56,7 @@ typedef struct peer {
     int single;      /* 1: float, 0: double */
     int proves;      /* 1: gives a bracket */
     unsigned cores;  /* that it takes */
-    int poses;       /* 1: takes them */
+    int poses;       /* 1: takes them; ROTATIONS: keeps a rotation, which one in float is not to a double */
     int radii;       /* 1: takes points grown by them */
     int most_points; /* of one set; 0: any number */
 
