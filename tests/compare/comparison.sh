@@ -6,7 +6,7 @@
 #   sh tests/compare/comparison.sh [PAIRS [ROUNDS [SEED [OUT]]]]     of each class, of timing; default 100, 21, 1, docs
 #
 # Peers are used where they are installed (Debian: libccd-dev libbox2d-dev libfcl-dev libbullet-dev), as their packagers
-# compiled them; Box2D 3 and parry by way of cargo, compiled as the library is. Who cannot be had is named as missing. GJK_COMPARE_LIBCCD in the environment, a
+# compiled them; Box2D 3, parry and Jolt by way of cargo, compiled as the library is. Who cannot be had is named as missing. GJK_COMPARE_LIBCCD in the environment, a
 # folder with sources of libccd, has that compiled so, too. Instructions are counted where valgrind is installed. The
 # build stays in build/comparison. Ends with 1 where the library failed; the page is written even so.
 set -eu

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Peers that are brought as packages, when they are asked for; each by itself, and missing where that fails.
 if(NOT GJK_COMPARE_PACKAGES)
-  foreach(name parry)
+  foreach(name parry jolt)
     no_peer(${name} "set GJK_COMPARE_PACKAGES to ON")
   endforeach()
   return()
@@ -13,4 +13,17 @@ if(parry_library)
   peer(parry peer_parry.c "${parry_version}, from its crates" "${parry_library}" Threads::Threads ${CMAKE_DL_LIBS} m)
 else()
   no_peer(parry "${parry_why}")
+endif()
+
+# Its GJK and EPA lie in headers.
+fetch_crate(joltc-sys 0.3.1)
+if(joltc-sys_dir AND CMAKE_CXX_COMPILER)
+  set(jolt "${joltc-sys_dir}/JoltC/JoltPhysics")
+  get_filename_component(crate "${joltc-sys_dir}" NAME)
+  string(REGEX MATCH "Jolt-([0-9.]+)" found "${crate}")
+  peer(jolt peer_jolt.cpp "${CMAKE_MATCH_1}, from the crate ${crate}")
+  target_include_directories(peer_jolt SYSTEM PRIVATE "${jolt}")
+  set_target_properties(peer_jolt PROPERTIES CXX_STANDARD 17)
+else()
+  no_peer(jolt "${joltc-sys_why}")
 endif()
