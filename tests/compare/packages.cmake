@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Peers that are brought as packages, when they are asked for; each by itself, and missing where that fails.
 if(NOT GJK_COMPARE_PACKAGES)
-  foreach(name parry jolt)
+  foreach(name parry jolt coal)
     no_peer(${name} "set GJK_COMPARE_PACKAGES to ON")
   endforeach()
   return()
 endif()
+include(wheels.cmake)
 
 build_crate(parry libparry_peer.a parry3d)
 if(parry_library)
@@ -26,4 +27,16 @@ if(joltc-sys_dir AND CMAKE_CXX_COMPILER)
   set_target_properties(peer_jolt PROPERTIES CXX_STANDARD 17)
 else()
   no_peer(jolt "${joltc-sys_why}")
+endif()
+
+# Its own packages, with the Eigen that they are compiled with.
+fetch_wheels(coal libcoal==3.0.3 cmeel-eigen)
+find_library(COAL_LIBRARY coal PATHS "${coal_site}/cmeel.prefix/lib" NO_DEFAULT_PATH)
+if(COAL_LIBRARY AND CMAKE_CXX_COMPILER)
+  peer(coal peer_coal.cpp "${coal_version} of PyPI" "${COAL_LIBRARY}")
+  target_include_directories(peer_coal SYSTEM PRIVATE "${coal_site}/cmeel.prefix/include"
+    "${coal_site}/cmeel.prefix/include/eigen3")
+  set_target_properties(peer_coal PROPERTIES CXX_STANDARD 17)
+else()
+  no_peer(coal "${coal_why}")
 endif()
