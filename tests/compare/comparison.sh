@@ -6,9 +6,10 @@
 #   sh tests/compare/comparison.sh [PAIRS [ROUNDS [SEED [OUT]]]]     of each class, of timing; default 100, 21, 1, docs
 #
 # Peers are used where they are installed (Debian: libccd-dev libbox2d-dev libfcl-dev libbullet-dev), as their packagers
-# compiled them; Box2D 3, parry and Jolt by way of cargo, compiled as the library is. Who cannot be had is named as missing. GJK_COMPARE_LIBCCD in the environment, a
-# folder with sources of libccd, has that compiled so, too. Instructions are counted where valgrind is installed. The
-# build stays in build/comparison. Ends with 1 where the library failed; the page is written even so.
+# compiled them; Box2D 3, Jolt and parry by way of cargo, compiled as the library is; coal and MuJoCo as pip brings
+# them. Who cannot be had is named as missing. GJK_COMPARE_LIBCCD in the environment, a folder with sources of libccd,
+# has that compiled so, too. Instructions are counted where valgrind is installed. The build stays in build/comparison.
+# Ends with 1 where the library failed; the page is written even so.
 set -eu
 cd "$(dirname "$0")/../.."
 pairs=${1:-100} rounds=${2:-21} seed=${3:-1} folder=${4:-docs}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Peers that are brought as packages, when they are asked for; each by itself, and missing where that fails.
 if(NOT GJK_COMPARE_PACKAGES)
-  foreach(name parry jolt coal)
+  foreach(name parry jolt coal mujoco)
     no_peer(${name} "set GJK_COMPARE_PACKAGES to ON")
   endforeach()
   return()
@@ -39,4 +39,14 @@ if(COAL_LIBRARY AND CMAKE_CXX_COMPILER)
   set_target_properties(peer_coal PROPERTIES CXX_STANDARD 17)
 else()
   no_peer(coal "${coal_why}")
+endif()
+
+# The library alone, without what its bindings need.
+fetch_wheels(mujoco mujoco-core==4.0.0 --no-deps)
+file(GLOB mujoco_library "${mujoco_site}/mujoco/libmujoco.so.*")
+if(mujoco_site AND mujoco_library)
+  peer(mujoco peer_mujoco.c "${mujoco_version} of PyPI" "${mujoco_library}")
+  target_include_directories(peer_mujoco SYSTEM PRIVATE "${mujoco_site}/mujoco/include")
+else()
+  no_peer(mujoco "${mujoco_why}")
 endif()
