@@ -108,14 +108,15 @@ static double time_passes(const run *r, long pairs, long passes, double look)
     return sum / (double)passes;
 }
 
-/* A round of short passes has more of them, so that it is long beside a look at the clock. The first round of all is
- * not counted. */
+/* A round of short passes has more of them, so that it is long beside a look at the clock. How many is told by a second
+ * pass: the first also does what is done once. */
 void time_runs(run *runs, int count, long pairs, long rounds)
 {
     double *ns = calloc((size_t)(count * rounds), sizeof *ns);
     long *passes = calloc((size_t)count, sizeof *passes);
     double look = find_look();
     for (int k = 0; k < count && ns && passes; k++) {
+        time_passes(&runs[k], pairs, 1, look);
         passes[k] = 1 + (long)(LEAST_ROUND / fmax(time_passes(&runs[k], pairs, 1, look), SHORTEST));
     }
     for (long round = 0; round < rounds && ns && passes; round++) {
@@ -133,6 +134,7 @@ void time_runs(run *runs, int count, long pairs, long rounds)
 
 void count_run(const run *r, long pairs, const char *label)
 {
+    pass(r, pairs); /* does what is done once */
     forget(r);
     CALLGRIND_START_INSTRUMENTATION;
     pass(r, pairs);
