@@ -143,16 +143,31 @@ static int ask(ask_fn *fn, const peer *p, const body *a, const body *b, void *me
     return fn(&a->shape, &b->shape, p->usual && !memory ? NULL : &o, r) < 0;
 }
 
-static int distance(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
+/* Its value is the distance, or below 0 the depth. */
+static int measure(ask_fn *fn, const peer *p, const body *a, const body *b, void *memory, peer_answer *out)
 {
     V(result) r;
-    if (ask(V(distance), p, a, b, memory, &r)) {
+    if (ask(fn, p, a, b, memory, &r)) {
         return 1;
     }
     out->meet = !(r.value > 0);
     out->distance = (double)r.value;
+    out->depth = -(double)r.value;
+    for (int i = 0; i < DIM; i++) {
+        out->normal[i] = (double)r.normal[i];
+    }
     tell(&r, out);
     return 0;
+}
+
+static int distance(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
+{
+    return measure(V(distance), p, a, b, memory, out);
+}
+
+static int penetration(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
+{
+    return measure(V(penetration), p, a, b, memory, out);
 }
 
 static int intersect(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
@@ -162,21 +177,6 @@ static int intersect(const peer *p, const void *a, const void *b, void *memory, 
         return 1;
     }
     out->meet = r.lower > 0 ? 0 : r.upper <= 0 ? 1 : -1;
-    tell(&r, out);
-    return 0;
-}
-
-static int penetration(const peer *p, const void *a, const void *b, void *memory, peer_answer *out)
-{
-    V(result) r;
-    if (ask(V(penetration), p, a, b, memory, &r)) {
-        return 1;
-    }
-    out->meet = r.value <= 0;
-    out->depth = -(double)r.value;
-    for (int i = 0; i < DIM; i++) {
-        out->normal[i] = (double)r.normal[i];
-    }
     tell(&r, out);
     return 0;
 }
