@@ -306,11 +306,12 @@ static int fails(const peer *p, const fed *f, const judgement *j)
                          (p->usual && sharp && !(j->error <= VALUE_ERROR * u && j->excess <= NORMAL_EXCESS * u)));
 }
 
-/* Returns how often ours failed. */
+/* Without an answer that has a number there is no error. Returns how often ours failed. */
 static long print_answers(enum question question, const entry *e, const run *empty)
 {
     char label[200];
     score s;
+    int measured;
     long bad = 0, sound = 0;
     double *error = calloc((size_t)block.pairs, sizeof *error);
     start_score(&s, question);
@@ -321,6 +322,7 @@ static long print_answers(enum question question, const entry *e, const run *emp
         }
         bad += fails(e->p, &pairs[i], &j);
     }
+    measured = question != INTERSECT && sound > 0;
     spell_label(label, sizeof label, question, e->p);
     printf("{\"row\": \"answers\", ");
     print_asked(question);
@@ -328,10 +330,10 @@ static long print_answers(enum question question, const entry *e, const run *emp
     print_number("least", e->run.least - empty->least);
     print_number("median", e->run.median - empty->median);
     print_number("supports", mean_supports(e));
-    print_number("promised", e->p->proves ? s.promised : NOT_THERE);
-    print_number("max_error", question == INTERSECT ? NOT_THERE : s.error);
-    print_number("median_error", question == INTERSECT ? NOT_THERE : median(error, sound));
-    print_number("excess", question == PENETRATION ? s.excess : NOT_THERE);
+    print_number("promised", e->p->proves && sound > 0 ? s.promised : NOT_THERE);
+    print_number("max_error", measured ? s.error : NOT_THERE);
+    print_number("median_error", measured ? median(error, sound) : NOT_THERE);
+    print_number("excess", measured && question == PENETRATION ? s.excess : NOT_THERE);
     printf(", \"asked\": %ld, \"wrong\": %ld, \"failed\": %ld", s.asked, s.wrong, failures_of(&s));
     print_example(&s, e);
     printf(", \"instructions\": null, \"label\": \"%s\"}\n", label);

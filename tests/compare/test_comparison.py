@@ -289,6 +289,23 @@ def test_results_without_an_end_are_refused(few, tmp_path):
         Measured([path])
 
 
+def test_where_no_answer_has_a_number_there_is_no_error():
+    """In the rows of a peer that never answers, and of whether bodies meet; a dash, not a 0, on the page."""
+    path = SMALL / "silent.jsonl"
+    rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    answers = {(row["library"], row["question"]): row for row in rows if row["row"] == "answers"}
+    for name in ("max_error", "median_error", "excess"):
+        assert answers["silent", "distance"][name] is None
+        assert answers["gjk3", "intersect"][name] is None
+    assert answers["gjk3", "distance"]["max_error"] is not None
+    place = next(p for p in Measured([path]).places if p.ask.question == "distance")
+    failed = answers["silent", "distance"]["asked"]
+    assert tables.errors([place]).rows[0][2] == f"–: {failed} failed"
+    shown = next(row for row in tables.settings(place).rows if row[0] == "silent")
+    assert shown[8:12] == ["–"] * 4
+    assert shown[-2:] == ["0", str(failed)]
+
+
 def test_where_ours_is_not_first_is_said(few, tmp_path):
     """A faster and more exact peer stands in the words and in the marks; a slower and less exact one does not."""
 

@@ -35,7 +35,7 @@ class Answers(NamedTuple):
     instructions: float | None
     supports: float | None
     promised: float | None
-    """The widest bracket, in scales of the pair; so are the errors. None of a question without a number."""
+    """The widest bracket, in scales of the pair; so are the errors. None without an answer that has a number."""
     max_error: float | None
     median_error: float | None
     excess: float | None
@@ -174,8 +174,6 @@ def _place(row, answers):
 def _answers(row, instructions):
     fields = {name: row[name] for name in Answers._fields if name != "failure"}
     fields["instructions"] = instructions.get(row["label"], row["instructions"])
-    if row["failed"] == row["asked"]:  # no number, no error
-        fields["max_error"] = fields["median_error"] = fields["excess"] = None
     return Answers(**fields, failure=row.get("failure"))
 
 

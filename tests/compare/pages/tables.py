@@ -69,6 +69,8 @@ def _error(a):
     if a is None:
         return NONE
     sizes = ", ".join(small(x) for x in (a.max_error, a.excess) if x is not None)
+    if a.question != "intersect" and not sizes:
+        sizes = NONE
     bad = ", ".join(f"{count} {word}" for count, word in ((a.wrong, "wrong"), (a.failed, "failed")) if count)
     return ": ".join(text for text in (sizes, bad) if text) or "0"
 
