@@ -140,23 +140,27 @@ void *make_body(const peer *p, const peer_set *set, const void *first)
 }
 
 typedef struct couple {
+    int is_made;
     void *a, *b;
 } couple;
 
 static couple make_couple(const peer *p, const fed *pair, const couple *first)
 {
-    couple made = {make_body(p, &pair->a, first->a), make_body(p, &pair->b, first->b)};
+    couple made = {1, make_body(p, &pair->a, first ? first->a : NULL), make_body(p, &pair->b, first ? first->b : NULL)};
     return made;
 }
 
-static void discard_couple(const peer *p, const couple *made)
+/* The bodies of a pair, made when they are asked about first; after those of the first of the track. */
+static const couple *couple_of(const peer *p, const fed *pairs, int i, int track, couple *made)
 {
-    if (made->a) {
-        p->discard(made->a);
+    int first = track ? i - i % track : i;
+    if (!made[first].is_made) {
+        made[first] = make_couple(p, &pairs[first], NULL);
     }
-    if (made->b) {
-        p->discard(made->b);
+    if (!made[i].is_made) {
+        made[i] = make_couple(p, &pairs[i], &made[first]);
     }
+    return &made[i];
 }
 
 static void ask_one(const peer *p, enum question question, const couple *c, void *memory, reply *r)
@@ -167,46 +171,36 @@ static void ask_one(const peer *p, enum question question, const couple *c, void
 
 /* From the pair `from` on; *at is kept at the one asked. */
 static void ask_of_all(const peer *p, enum question question, const fed *pairs, int from, int count, int track,
-                       reply *replies, volatile int *at)
+                       couple *made, reply *replies, volatile int *at)
 {
     struct itimerval limit = {{0, 0}, {0, (int)(TIME_LIMIT * 1e6)}};
     void *memory = p->memory ? calloc(1, p->memory) : NULL;
-    const couple none = {NULL, NULL};
-    couple first = none; /* of the track */
     for (int i = from; i < count; i++, ++*at) {
         if (!takes_pair(p, &pairs[i])) {
             continue;
         }
-        if (track == 0 || i % track == 0) {
-            discard_couple(p, &first);
-            first = track ? make_couple(p, &pairs[i], &none) : none;
-            if (memory) {
-                memset(memory, 0, p->memory);
-            }
+        if (memory && (track == 0 || i % track == 0)) {
+            memset(memory, 0, p->memory);
         }
         setitimer(ITIMER_VIRTUAL, &limit, NULL);
-        {
-            couple here = make_couple(p, &pairs[i], &first);
-            ask_one(p, question, &here, memory, &replies[i]);
-            discard_couple(p, &here);
-        }
+        ask_one(p, question, couple_of(p, pairs, i, track, made), memory, &replies[i]);
     }
-    discard_couple(p, &first);
     free(memory);
 }
 
-/* In the child, from *at on, which counts the pairs of one peer after another. What it dies of, if it does, is told by
- * the signal. */
+/* In the child, from *at on, which counts the pairs of one peer after another; all are asked about the same bodies.
+ * What it dies of, if it does, is told by the signal. */
 static void ask_the_rest(const peer *const *peers, int peer_count, enum question question, const fed *pairs, int count,
                          int track, reply *const *replies, volatile int *at)
 {
     int nowhere = open("/dev/null", O_WRONLY);
+    couple *made = calloc((size_t)count, sizeof *made);
     dup2(nowhere, 1);
     dup2(nowhere, 2);
-    for (int k = *at / count; k < peer_count; k++) {
-        ask_of_all(peers[k], question, pairs, *at - k * count, count, track, replies[k], at);
+    for (int k = *at / count; k < peer_count && made; k++) {
+        ask_of_all(peers[k], question, pairs, *at - k * count, count, track, made, replies[k], at);
     }
-    _exit(0);
+    _exit(made ? 0 : 1);
 }
 
 void ask_peers(const peer *const *peers, int peer_count, enum question question, const fed *pairs, int count, int track,

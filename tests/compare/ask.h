@@ -48,7 +48,7 @@ void give_back(void *space, size_t size);
 /* The body of a set, which along a track is that of the first under another pose; first NULL: it is the first. */
 void *make_body(const peer *p, const peer_set *set, const void *first);
 
-/* What peers of one library answer, each into its own replies, which are in shared memory. Pairs of a track, so many
+/* What peers of one make answer, each into its own replies, which are in shared memory. Pairs of a track, so many
  * one after another, share what the peer keeps in mind. */
 void ask_peers(const peer *const *peers, int peer_count, enum question question, const fed *pairs, int count, int track,
                reply *const *replies);
