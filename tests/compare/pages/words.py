@@ -43,7 +43,7 @@ or took more than a quarter of a second. The *excess* of a depth is how much fur
 must be moved along the normal that came back, at most."""
 FAIR = """\
 All libraries answer in one process, from the same file of pairs: in each round everyone in turn answers all pairs of
-the class. What asking costs by itself is measured with an empty call and taken off. Instructions are counted by
+the class, and once more off the clock before that, so that all find their bodies in the caches. What asking costs by itself is measured with an empty call and taken off. Instructions are counted by
 callgrind, and do not depend on the machine's mood. All code that is compiled here is compiled with -O3; installed
 libraries are as their packagers compiled them. Settings are those that each library comes with or that its
 documentation advises, warm starts included; then its accuracy is swept through its tolerance or its number of steps.
