@@ -64,14 +64,11 @@ static int is_asked(const peer *p, enum question question)
            takes_all(p);
 }
 
-/* Instructions are counted, and growth is told, of those that are set as usual; growth with the accuracy of those whose
- * tolerance is set. */
+/* Growth is told of those that are set as usual; with the accuracy, of those whose tolerance is set. */
 static int is_wanted(const peer *p)
 {
-    if (rounds > 0 && !*block.growth) {
-        return 1;
-    }
-    return strcmp(block.growth, "accuracy") == 0 ? strcmp(p->knob, "tolerance") == 0 : p->usual;
+    int by_accuracy = strcmp(block.growth, "accuracy") == 0;
+    return !*block.growth || (by_accuracy ? strcmp(p->knob, "tolerance") == 0 : p->usual);
 }
 
 static void choose(enum question question)
@@ -144,7 +141,7 @@ static void find_safe(void)
 static void *const *bodies_like(const peer *p, int count)
 {
     for (int k = 0; k < count; k++) {
-        if (asked[k].p->make == p->make) {
+        if (asked[k].run.bodies && asked[k].p->make == p->make) {
             return asked[k].run.bodies;
         }
     }
@@ -165,12 +162,16 @@ static void **make_bodies(const peer *p)
     return made;
 }
 
+/* Who is not timed needs no bodies; by the first it is told what asking costs. */
 static void start_runs(enum question question)
 {
     for (int k = 0; k < count_asked; k++) {
         run *r = &asked[k].run;
         const peer *p = r->p = asked[k].p;
         void *const *like = bodies_like(p, k);
+        if (k > 0 && !asked[k].timed) {
+            continue;
+        }
         r->query = p->query[question];
         r->bodies = like ? like : make_bodies(p);
         r->track = track_of;
@@ -184,7 +185,7 @@ static void end_runs(void)
     for (int k = count_asked - 1; k >= 0; k--) { /* those who share bodies come after the one who made them */
         const run *r = &asked[k].run;
         free(r->memory);
-        if (!bodies_like(r->p, k)) {
+        if (r->bodies && !bodies_like(r->p, k)) {
             for (long i = 2 * count_safe - 1; i >= 0; i--) {
                 r->p->discard(r->bodies[i]);
             }
@@ -449,7 +450,7 @@ static void grow(enum question question)
         char at[32];
         run floor = e->run;
         floor.median = NOT_THERE;
-        if (e->p->supports) {
+        if (e->p->supports && e->timed) {
             for (long i = 0; i < count_safe; i++) {
                 calls[i] = (int)e->replies[safe[i]].answer.supports;
             }

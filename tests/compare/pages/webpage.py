@@ -83,7 +83,8 @@ where the number of steps is varied; large marks are the defaults, a small one o
 some of these answers are wrong or failed. Hollow: warm. Dashed and light: the error that ours promised, its widest
 bracket, which is never below the true one."""
 GROWTH = """\
-The dotted curve is the floor: what the support calls take by themselves."""
+The dotted curve is the floor: what the support calls take by themselves. A curve ends where it takes longer than a
+quarter of a second to make the bodies and to answer."""
 WARM = "Along a path of small steps: from cold to warm, the nearer to the left the better."
 
 
