@@ -64,11 +64,14 @@ static int is_asked(const peer *p, enum question question)
            takes_all(p);
 }
 
-/* Growth is told of those that are set as usual; with the accuracy, of those whose tolerance is set. */
+/* Growth is told of those that are set as usual; with the accuracy, of those whose tolerance is set. Instructions are
+ * counted of those that are set as usual, and of ours at every setting. */
 static int is_wanted(const peer *p)
 {
-    int by_accuracy = strcmp(block.growth, "accuracy") == 0;
-    return !*block.growth || (by_accuracy ? strcmp(p->knob, "tolerance") == 0 : p->usual);
+    if (strcmp(block.growth, "accuracy") == 0) {
+        return strcmp(p->knob, "tolerance") == 0;
+    }
+    return p->usual || (!*block.growth && (rounds > 0 || p->proves));
 }
 
 static void choose(enum question question)
@@ -373,6 +376,7 @@ static void count_one(const run *r, const char *label)
 static void count_instructions(enum question question)
 {
     static int nothing_counted;
+    start_counting();
     if (!nothing_counted) {
         run nothing = asked[0].run;
         nothing.query = ask_nothing;
@@ -386,6 +390,7 @@ static void count_instructions(enum question question)
             count_one(&asked[k].run, label);
         }
     }
+    stop_counting();
 }
 
 /* The last of the runs asks nothing. */

@@ -32,8 +32,9 @@ bench() { # PAIRS_FILE ROUNDS RESULTS [COMMAND...]
 sh tests/compare/draw_all.sh $out "$pairs" "$seed" $out/pairs.bin
 bench $out/pairs.bin "$rounds" $out/comparison.jsonl env
 counted=
-if command -v valgrind >/dev/null; then
-    bench $out/pairs.bin 0 $out/counted.jsonl sh tests/compare/count.sh $out/counts
+if command -v valgrind >/dev/null; then # it takes its time: a tenth of the pairs
+    sh tests/compare/draw_all.sh $out $(((pairs + 9) / 10)) "$seed" $out/counted.bin
+    bench $out/counted.bin 0 $out/counted.jsonl sh tests/compare/count.sh $out/counts
     counted="--counted $out/counted.jsonl --counts $out/counts"
 else
     echo 'valgrind is not installed: instructions are not counted'

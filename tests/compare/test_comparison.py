@@ -14,7 +14,7 @@ from collections import Counter, defaultdict
 from pathlib import Path
 
 import pytest
-from pages import tables
+from pages import tables, words
 from pages.measured import Incomplete, Measured
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
@@ -274,12 +274,14 @@ def test_instructions_are_read_and_what_asking_costs_is_taken_off(few, tmp_path)
     results, counted = tmp_path / "results.jsonl", tmp_path / "counted.jsonl"
     results.write_text("".join(json.dumps(row) + "\n" for row in few), encoding="utf-8")
     counts = [{"row": "counted", "label": label, "answers": 10} for label in (row["label"], "nothing")]
-    counted.write_text("".join(json.dumps(row) + "\n" for row in [*counts, {"row": "end"}]), encoding="utf-8")
+    counts = [{"row": "head", "pairs": 7}, *counts, {"row": "end"}]
+    counted.write_text("".join(json.dumps(row) + "\n" for row in counts), encoding="utf-8")
     for i, (label, total) in enumerate([(row["label"], 5000), ("nothing", 70)]):
         text = f"desc: Trigger: Client Request: {label}\nsummary: {total}\n\ntotals: {total}\n"
         (tmp_path / f"callgrind.out.{i}").write_text(text, encoding="utf-8")
-    found = [a for p in Measured([results], counted, tmp_path).places for a in p.answers if a.instructions]
-    assert [a.instructions for a in found] == [493]
+    measured = Measured([results], counted, tmp_path)
+    assert [a.instructions for p in measured.places for a in p.answers if a.instructions] == [493]
+    assert "; instructions of 7 of them" in words.head(measured)
 
 
 def test_results_without_an_end_are_refused(few, tmp_path):

@@ -23,8 +23,11 @@ int ask_nothing(const peer *p, const void *a, const void *b, void *memory, peer_
 /* In each round everyone in turn answers all pairs. */
 void time_runs(run *runs, int count, long pairs, long rounds);
 
-/* Has callgrind write the instructions of one pass under this label. */
+/* Has callgrind write the instructions of one pass under this label. Between the other two, which have all code
+ * translated anew. */
+void start_counting(void);
 void count_run(const run *r, long pairs, const char *label);
+void stop_counting(void);
 
 double median(double *x, long count);
 

@@ -125,7 +125,9 @@ class Measured:
 
     def __init__(self, paths, counted=None, counts=None):
         files = [_read(path) for path in paths]
-        instructions = _instructions(_read(counted), counts) if counted else {}
+        counting = _read(counted) if counted else []
+        instructions = _instructions(counting, counts) if counted else {}
+        self.counted = next((row["pairs"] for row in counting if row["row"] == "head"), 0)
         self.heads = [rows[0] for rows in files]
         self.failures = sum(rows[-1]["failures"] for rows in files)
         rows = [row for file in files for row in file]
