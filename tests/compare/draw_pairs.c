@@ -203,7 +203,7 @@ static void place_stacked(draws *d, pair *p, double by, int step)
     }
 }
 
-/* So many steps along a path: b turns and slides a little with each, and stays as near. */
+/* So many steps along a path: b turns and slides a little with each, and stays as near, or as deep. */
 static void place_on_path(draws *d, pair *p, double by, int step)
 {
     double way[DIM], small[DIM * DIM];
@@ -234,7 +234,8 @@ static const state states[] = {{"near 1e-3", place_at, 1e-3, APART, 0},
                                {"near 1e-9", place_at, 1e-9, APART, 0},
 #endif
                                {"shallow", place_at, -1e-3, OVERLAPPING, 0},
-                               {"path", place_on_path, 0.05, APART, STEPS_OF_TRACK}};
+                               {"path", place_on_path, 0.05, APART, STEPS_OF_TRACK},
+                               {"inner path", place_on_path, -0.05, OVERLAPPING, STEPS_OF_TRACK}};
 
 /* ---- the file ---- */
 

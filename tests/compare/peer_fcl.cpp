@@ -195,17 +195,15 @@ peer setting(bool own, double value, size_t memory)
     p.poses = 1;
     p.make = make;
     p.discard = discard;
-    if (memory == 0) {
-        p.query[DISTANCE] = how_far;
-        p.query[PENETRATION] = own ? contact : signed_distance;
-    }
+    p.query[DISTANCE] = memory ? nullptr : how_far;
     p.query[INTERSECT] = meet;
+    p.query[PENETRATION] = own ? contact : signed_distance;
     return p;
 }
 
 } // namespace
 
-/* Only its own solver takes a guess, and only when it is asked whether they meet. */
+/* Only its own solver takes a guess, and not for the distance. */
 const peer *gjk_peers(int *count)
 {
     static std::vector<peer> all;

@@ -181,7 +181,7 @@ def curves(rows):
             name = f"{row['library']}{', warm' if row['warm'] else ''} {row['knob']}"
             if row["default"]:
                 timed.add((asked(row), row["library"], row["warm"]))
-            own, has_error = expected[slug(*asked(row))], row["max_error"] is not None and row["failed"] < row["asked"]
+            own, has_error = expected[slug(*asked(row))], row["max_error"] is not None
             own[slug(name)] += row["question"] == "intersect" or has_error
             own[slug(name, "promised")] += has_error and row["promised"] is not None
         if row["row"] == "growth":
@@ -191,7 +191,7 @@ def curves(rows):
                 own[slug(row["library"], "floor")] += what == "median" and (row["floor"] or 0) > 0
     for where, library, warm in timed:
         if warm and (where, library, False) in timed:
-            expected[slug("warm", *where[:3])][slug(where[3], library)] += 1
+            expected[slug("warm", *where[:3], where[4])][slug(where[3], library)] += 1
     return {name: dict(+own) for name, own in expected.items() if +own or "growth" not in name}
 
 

@@ -187,11 +187,13 @@ def _place_figure(place, looks):
 
 
 def _warm_figures(measured, looks):
-    for ask in measured.asks():
-        places = [p for p in measured.of(ask) if p.is_warm()]
-        if places:
-            name = plots.slug("warm", ask.title)
-            yield _figure(name, ask.title, plots.warm_plot(places, looks, name), f"Time cold and warm: {ask.title}")
+    grouped = {}
+    for place in measured.places:
+        if place.is_warm():
+            grouped.setdefault((place.ask, place.state), []).append(place)
+    for (ask, state), places in grouped.items():
+        title, name = f"{ask.title}, {state}", plots.slug("warm", ask.title, state)
+        yield _figure(name, title, plots.warm_plot(places, looks, name), f"Time cold and warm: {title}")
 
 
 AXES = {"vertices": "vertices of each body", "pairs": "pairs", "accuracy": "accuracy asked for, in scales"}

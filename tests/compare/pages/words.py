@@ -29,11 +29,11 @@ Of each library up to two pairs that it answers wrong, or not, at its defaults. 
 `gjk query`, which comes with the Python package, says what ours answers: `echo 'CASE' | gjk query`."""
 HOW_TO_READ = """\
 Each class of pairs is drawn at random, from a seed. *Near* is how far apart the bodies are; *shallow* and *deep* ones
-overlap, *stacked* ones touch; along a *path* one body moves in small steps. Sizes are about 1, and the *scale* of a
-pair is its largest coordinate relative to a point between the bodies. An *error* is how far the distance, or the depth,
-is off the truth, in scales. The truth is exact: whole numbers of any length where the bodies are spelled by their
-corners, else a bracket of 113 bits. *Promised* is the width of the widest bracket that ours returned: the true error is
-never larger.
+overlap, *stacked* ones touch; along a *path* one body moves in small steps, apart from the other, along an *inner path*
+overlapping it. Sizes are about 1, and the *scale* of a pair is its largest coordinate relative to a point between the
+bodies. An *error* is how far the distance, or the depth, is off the truth, in scales. The truth is exact: whole numbers
+of any length where the bodies are spelled by their corners, else a bracket of 113 bits. *Promised* is the width of the
+widest bracket that ours returned: the true error is never larger.
 
 An answer is *wrong* where a distance or depth is off by more than a hundredth of itself, by more than 4 roundings,
 and by more than its setting allows; a verdict that is wrong further from contact than that; and of ours, at any
