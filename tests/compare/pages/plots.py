@@ -20,15 +20,20 @@ FAMILIES = {
     "Box2D": ("#d55e00", "#f0803c"),
     "FCL": ("#009e73", "#2cc79b"),
     "Bullet": ("#b0568a", "#cc79a7"),
-    "": ("#6b6b00", "#f0e442"),
+    "parry": ("#6b6b00", "#f0e442"),
+    "Jolt": ("#3d3d3d", "#d0d0d0"),
+    "coal": ("#7d4a2f", "#c8977a"),
+    "MuJoCo": ("#006d77", "#66c5cc"),
+    "": ("#5b4a8a", "#a797d8"),
 }
-"""In the light and in the dark; the last is anyone else's."""
+"""In the light and in the dark; the last is anyone else's. The second half, whose colours are nearer to those of the
+first, also starts with other dashes."""
 MARKERS = "os^DvPX*<>dhp8H"
 DASHES = ["-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (5, 1.2, 1.2, 1.2))]
 WIDTH, HEIGHT = 4.6, 3.2  # inches, so that letters keep their size on a phone
 LEFT, RIGHT, LOW, HIGH = 0.12, 0.69, 0.15, 0.87  # of the figure: where the axes are; the names stand to their right
 ROW = 0.2  # inches, from row to row
-LINE = 0.068  # of the axes' height, from name to name
+LINE = 0.157  # inches, from name to name beside a plot
 PAGE = "#0303ff"
 TIME = "ns per query, median"
 PROMISED = {"linestyle": (0, (2, 1.5)), "linewidth": 1.0, "alpha": 0.55, "markersize": 2.5}
@@ -85,7 +90,11 @@ class Looks:
     def __init__(self, libraries):
         self.markers = {name: MARKERS[i % len(MARKERS)] for i, name in enumerate(libraries)}
         families = [_family(name) for name in libraries]
-        self.dashes = {n: DASHES[families[:i].count(families[i]) % len(DASHES)] for i, n in enumerate(libraries)}
+        firsts = {family: 2 * i // len(FAMILIES) for i, family in enumerate(FAMILIES)}
+        self.dashes = {
+            name: DASHES[(firsts[families[i]] + families[:i].count(families[i])) % len(DASHES)]
+            for i, name in enumerate(libraries)
+        }
 
     def of(self, library):
         colour = _colour(list(FAMILIES).index(_family(library)))
@@ -122,7 +131,8 @@ class Plot:
         axes = self.axes
         to_axes = axes.transData + axes.transAxes.inverted()
         ends = sorted(((*to_axes.transform((x, y)), name, look) for name, x, y, look in self.names), key=lambda e: e[1])
-        heights = _spread([end[1] for end in ends])
+        line = LINE / (axes.figure.get_figheight() * (HIGH - LOW))
+        heights = _spread([end[1] for end in ends], line)
         for (x, y, name, look), height in zip(ends, heights):
             axes.plot([x, 1.03], [y, height], transform=axes.transAxes, color=look["color"], linewidth=0.5, alpha=0.6,
                       clip_on=False)  # fmt: skip
@@ -131,16 +141,26 @@ class Plot:
             axes.text(1.085, height, name, transform=axes.transAxes, va="center_baseline", fontsize=8)
 
 
-def _spread(wanted):
-    """Heights no closer than LINE, in the same order, each as near as may be to the one wanted, within the axes."""
+def _spread(wanted, line):
+    """Heights no closer than a line, in the same order, each as near as may be to the one wanted, within the axes."""
     heights = []
     for i, y in enumerate(wanted):
-        heights.append(max(y, heights[-1] + LINE if i else 0))
-    top = max(1.0, LINE * (len(wanted) - 1))
+        heights.append(max(y, heights[-1] + line if i else 0))
+    top = 1.0
     for i in reversed(range(len(heights))):
         heights[i] = min(heights[i], top)
-        top = heights[i] - LINE
+        top = heights[i] - line
     return heights
+
+
+def _size(names, panels=1):
+    """Of a figure with room for so many names beside each plot."""
+    return WIDTH * panels, max(HEIGHT, LINE * (names - 1) / (HIGH - LOW))
+
+
+def _names(place):
+    """How many stand beside its plot, at most."""
+    return len({(a.library, a.warm) for a in place.answers if is_drawn(a)}) + 1
 
 
 def _time_axis(axis, times):
@@ -178,7 +198,7 @@ def error_of(a):
 def error_plot(place, looks, prefix):
     """True error against run time: a curve for each library through its settings, and what ours promised."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(WIDTH, HEIGHT))
+        figure = Figure(figsize=_size(_names(place)))
         _draw_errors(Plot(figure, scale_of(place.ask).title, TIME), place, looks)
         return _drawn(figure, prefix)
 
@@ -186,7 +206,7 @@ def error_plot(place, looks, prefix):
 def readme_plot(places, looks):
     """The same of some places, side by side."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(WIDTH * len(places), HEIGHT))
+        figure = Figure(figsize=_size(max(map(_names, places)), len(places)))
         for i, place in enumerate(places):
             title = f"{sentence(place.ask.question)}: {place.title}, {place.ask.precision}\n{scale_of(place.ask).title}"
             _draw_errors(Plot(figure, title, TIME, i, len(places)), place, looks)
@@ -243,7 +263,7 @@ def _error_axes(plot, scale):
 def growth_plot(rows, what, x_title, title, looks, prefix):
     """How `what` grows, by library; beside the time of ours that of its support calls alone."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(WIDTH, HEIGHT))
+        figure = Figure(figsize=_size(2 * len({row["library"] for row in rows})))
         plot = Plot(figure, title, x_title)
         for library in dict.fromkeys(row["library"] for row in rows):
             own = sorted((row for row in rows if row["library"] == library), key=lambda row: row["at"])
