@@ -400,7 +400,7 @@ def peer_table(peers, missing, asked=("how", "how_deep")):
         how = [p[k] or "–" for k in asked]
         yield line([p["name"], p["version"], *how, f"{p['dim']}-D, {'float' if p['single'] else 'double'}"])
     for name in missing:
-        yield line([name, "missing: not installed", *("" for _ in asked), ""])
+        yield line([name, "missing: neither installed nor brought", *("" for _ in asked), ""])
 
 
 def page(results, command):

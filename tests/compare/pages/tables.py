@@ -25,7 +25,7 @@ def peers(measured):
     for p in measured.peers.values():
         how = "; ".join(dict.fromkeys(p[k] for k in ("how", "how_meet", "how_deep") if p.get(k)))
         rows.append([p["name"], p["version"], f"{p['dim']}-D, {'float' if p['single'] else 'double'}", how])
-    rows += [[name, "missing: not installed", "", ""] for name in measured.missing]
+    rows += [[name, "missing: neither installed nor brought", "", ""] for name in measured.missing]
     return Table(["library", "version", "numbers", "asked by, at the settings that it comes with"], rows, 4)
 
 
