@@ -376,6 +376,11 @@ static void count_one(const run *r, const char *label)
 static void count_instructions(enum question question)
 {
     static int nothing_counted;
+    for (int k = 0; k < count_asked; k++) {
+        if (asked[k].timed) {
+            run_once(&asked[k].run, count_safe);
+        }
+    }
     start_counting();
     if (!nothing_counted) {
         run nothing = asked[0].run;

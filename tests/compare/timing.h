@@ -23,6 +23,9 @@ int ask_nothing(const peer *p, const void *a, const void *b, void *memory, peer_
 /* In each round everyone in turn answers all pairs. */
 void time_runs(run *runs, int count, long pairs, long rounds);
 
+/* A pass, so that what is done once is done. */
+void run_once(const run *r, long pairs);
+
 /* Has callgrind write the instructions of one pass under this label. Between the other two, which have all code
  * translated anew. */
 void start_counting(void);
