@@ -62,7 +62,8 @@ class Page(HTMLParser):
         self.count[tag] = self.count.get(tag, 0) + 1
         if tag not in ("meta", "link", "img", "br"):
             self.open.append(tag)
-        self.loads += [value for name, value in attributes if name in ("src", "href", "xlink:href")]
+        links = [value for name, value in attributes if name in ("src", "href", "xlink:href")]
+        self.loads += [link for link in links if not link.startswith("data:")]
 
     def handle_startendtag(self, tag, attributes):
         self.handle_starttag(tag, attributes)

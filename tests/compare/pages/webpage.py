@@ -5,26 +5,14 @@ import re
 from html import escape
 from string import Template
 
-from gjk.report.page import COLOURS, CSS
+from gjk.report.page import COLOURS, CSS, document
 
 from . import plots, tables, words
 from .measured import Ask, where
 from .writing import case_text, sentence
 
 PAGE = Template(
-    """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<link rel="icon" href="data:,">
-<title>gjk and other libraries: error against run time</title>
-<style>
-$css
-</style>
-</head>
-<body>
+    """\
 <header>
 <h1>Error against run time</h1>
 <p>$lead</p>
@@ -39,8 +27,6 @@ $contents
 </ul></nav>
 $sections
 <footer><p>gjk $version, MIT licence.</p></footer>
-</body>
-</html>
 """
 )
 
@@ -94,8 +80,7 @@ def page(measured, command):
     sections = "\n".join(
         f'<section id="{plots.slug(t)}">\n<h2>{escape(t)}</h2>\n{body}\n</section>' for t, body in parts
     )
-    return PAGE.substitute(
-        css=CSS + plots.css() + STYLE,
+    body = PAGE.substitute(
         lead=escape(words.LEAD),
         head=escape(words.head(measured)),
         command=escape(command),
@@ -104,6 +89,7 @@ def page(measured, command):
         sections=sections,
         version=escape(measured.head["version"]),
     )
+    return document("gjk and other libraries: error against run time", CSS + plots.css() + STYLE, body)
 
 
 def _sections(measured, looks):

@@ -14,7 +14,7 @@ from .scene import Scene
 from .table import Report, Row
 from .terminal import figure
 
-__all__ = ["COLOURS", "CSS", "write"]
+__all__ = ["COLOURS", "CSS", "document", "write"]
 
 COLOURS = """\
 :root { --ink: #1b1f24; --soft: #59636e; --rule: #d1d9e0; --page: #ffffff; --card: #f6f8fa;
@@ -64,18 +64,26 @@ footer { margin-top: 3rem; font-size: .85rem; border-top: 1px solid var(--rule);
 )
 """Of this page and others."""
 
-PAGE = Template(
+DOCUMENT = Template(
     """<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
-<title>$name: error against run time</title>
+<link rel="icon" href="data:,">
+<title>$title</title>
 <style>
 $css</style>
 </head>
 <body>
+$body</body>
+</html>
+"""
+)
+
+PAGE = Template(
+    """\
 <header>
 <h1>$name: error against run time</h1>
 <p>$lead</p>
@@ -114,31 +122,32 @@ drawn at 0. Time is the mean of all pairs, cold, one thread, in the fastest of i
 the query alone.</p>
 <p>gjk $version on $machine.$source</p>
 </footer>
-</body>
-</html>
 """
 )
 
 KINDS = {"rel_tol": "by tolerance asked", "max_steps": "by steps allowed"}
 
 
+def document(title: str, css: str, body: str) -> str:
+    """A whole page; its parts are HTML already."""
+    return DOCUMENT.substitute(title=title, css=css, body=body)
+
+
 def write(path: Path, scene: Scene, reports: list[Report]) -> None:
-    path.write_text(
-        PAGE.substitute(
-            css=CSS,
-            name=escape(scene.name),
-            lead=_lead(scene, reports),
-            cards="\n".join(_cards(reports)),
-            ladders="\n".join(_ladders(reports)),
-            promise=_promise(reports),
-            promises="\n".join(_promises(reports)),
-            tables="\n".join(_table(report) for report in reports),
-            version=__version__,
-            machine=escape(_machine()),
-            source=f" Scene: {escape(scene.source)}" if scene.source else "",
-        ),
-        encoding="utf-8",
+    name = escape(scene.name)
+    body = PAGE.substitute(
+        name=name,
+        lead=_lead(scene, reports),
+        cards="\n".join(_cards(reports)),
+        ladders="\n".join(_ladders(reports)),
+        promise=_promise(reports),
+        promises="\n".join(_promises(reports)),
+        tables="\n".join(_table(report) for report in reports),
+        version=__version__,
+        machine=escape(_machine()),
+        source=f" Scene: {escape(scene.source)}" if scene.source else "",
     )
+    path.write_text(document(f"{name}: error against run time", CSS, body), encoding="utf-8")
 
 
 def _lead(scene: Scene, reports: list[Report]) -> str:
