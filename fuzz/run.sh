@@ -23,7 +23,7 @@ fi
 runs=
 case ${1-} in
 '' | *[!0-9.x]* | *x?* | x) usage ;;
-*x) runs=${1%x} minutes=5 ;; # five minutes at the most
+*x) runs=${1%x} minutes=20 ;; # no more than these
 *) minutes=$1 ;;
 esac
 shift

@@ -1009,6 +1009,8 @@ static void flat_pairs(void **state)
     }
 }
 
+#define SETTLED (DIM == 2 ? 0.9 : 0.84) /* of those that overlap, in whatever room and steps there are */
+
 /* A few points each, of another magnitude along each axis, down to the 300th binade: nearly flat in every way. */
 static void draw_uneven(draws *d)
 {
@@ -1087,7 +1089,7 @@ static void uneven(void **state)
     }
     printf("%-6s uneven points: %ld pairs, %ld overlap, settled %ld times\n", VARIANT, 5 * pairs_per_family, deep,
            settled);
-    assert_true(deep > 0 && settled > 0);
+    assert_true(deep > 0 && (double)settled >= SETTLED * 2.0 * (double)deep);
 }
 
 /* ---- paths: b comes, touches, goes in, and comes out again ---- */

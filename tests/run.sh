@@ -64,7 +64,7 @@ for preset in release clang asan-ubsan; do
 done
 
 say 'Fuzzing'
-GJK_FUZZ_SEED=2 fuzz/run.sh 5000x # the same each time: what is new is found by longer runs
+GJK_FUZZ_SEED=1 fuzz/run.sh 5000x # the same each time: what is new is found by longer runs
 
 say 'Python: setting up'
 python3 -m venv build/venv

@@ -314,14 +314,19 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
 }
 
 /* The same of known corners; where rounding does not tell whether they meet, that is found out without it, from the
- * lowest facet, and if they do not the answer is the distance. */
+ * lowest facet, or where that has too many digits from where the search ended; and if they do not the answer is the
+ * distance. */
 static enum end plumb_and_tell(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
                                real weight[], result *r)
 {
+    simplex searched = q->s;
     enum end end = plumb(q, a, b, o, g, &upper, weight, r);
     if (end == FAULT || !EXACT || upper <= 0) return end;
     result apart = *r;
-    if (tighten(q, a, b, g, &apart, weight) != STILL) return end;
+    if (tighten(q, a, b, g, &apart, weight) != STILL) {
+        q->s = searched;
+        if (tighten(q, a, b, g, &apart, weight) != STILL) return end;
+    }
     if (!q->met) {
         *r = apart;
         return STILL;

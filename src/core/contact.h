@@ -265,7 +265,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (end == FAULT) return end;
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     prove(d, upper);
-    if ((g->tight || d->spoiled) && !d->settled && d->floor && d->q->steps < g->max_steps) {
+    if (g->tight && !d->settled && d->floor && d->q->steps < g->max_steps) {
         settle_anew(d, &end);
         prove(d, upper);
     }

@@ -27,7 +27,6 @@ typedef struct depth {
     tally dropped;      /* of facets that the surface has but the polytope no longer */
     vec along;          /* the direction asked last, of known corners to all digits, */
     real below;         /*   and the bound from below that it gave */
-    int spoiled;        /* the polytope of known corners is, by roundings */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
     real ends[3];       /* the bracket of the separation then, radii included, and the value */
     vec normal;         /* that goes with it */
@@ -356,8 +355,8 @@ static int close_enough(const depth *d, const facet *f, real lower)
 }
 
 /* Whether anything lies beyond the facet along its n: t, the corner there by rounded heights or, of known corners, by
- * true ones. Beyond a facet of their hull are no tips: where one is seen there, the polytope is spoiled by roundings,
- * and would only take in the same tips for ever. */
+ * true ones. Beyond a facet of their hull are no tips: what is seen there of these is noise, and taken in again would
+ * be seen for ever. */
 static int is_beyond(depth *d, const facet *f, tip *t)
 {
     vertex c;
@@ -368,9 +367,7 @@ static int is_beyond(depth *d, const facet *f, tip *t)
     *t = tip_of(d->q, &c, 0);
     if (is_tip_of(&d->p, f, t)) return 0;
     *t = tip_of(d->q, &c, 1);
-    if (!sees(&d->p, f, t)) return 0;
-    d->spoiled |= is_known(&d->p, t);
-    return !d->spoiled;
+    return sees(&d->p, f, t) && !is_known(&d->p, t);
 }
 
 /* Takes in the corner beyond the facet, or the facet is done. CLOSE: what lies there is of no account; the bound from
