@@ -48,10 +48,9 @@ static const options *read_options(options *own, const options *given)
 }
 
 /* What a later query of this pair may start from. */
-static void remember(cache *k, search *q, const shape *a, const shape *b)
+static void remember(cache *k, const search *q, const shape *a, const shape *b)
 {
     if (q->kept) return;
-    q->kept = 1;
     int n = q->s.n, lent = 1;
     for (int i = 0; i < n; i++) lent &= (int)(q->borrowed >> q->s.at[i] & 1);
     if (lent && q->repeated) return; /* nothing new: the cache may hold more than this simplex */
@@ -97,7 +96,7 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
             goal here = scaled(g, q->d.scale);
             end = search_on(q, &here, upper, weight);
             if (end == BEYOND && g->sign_only && q->lender) {
-                remember(o->cache, q, a, b); /* the borrowed corners with it, for the next query */
+                q->kept = 1; /* for the next query */
                 *upper = stand_on_last(q, weight);
             }
         }

@@ -58,7 +58,7 @@ typedef struct search {
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
-    int kept;            /* the cache has been written, and is to stay as it is */
+    int kept;            /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
 } search;
 
 /* |v| is below half a rounding of the frame, which is of size 1 to 2: it has no direction. */
@@ -427,7 +427,8 @@ static int settled(search *q)
 }
 
 /* Where the corner handed out last proves the sets apart, and that is all that is asked, it alone is the simplex:
- * whether borrowed corners are good is of no account then. Returns the bound from above. */
+ * whether borrowed corners are good is of no account then. Returns the bound from above. The cache must not get that
+ * corner beside others that nobody has vouched for: handed out again, it would vouch for them. */
 static real stand_on_last(search *q, real weight[DIM + 1])
 {
     simplex *s = &q->s;
@@ -436,6 +437,7 @@ static real stand_on_last(search *q, real weight[DIM + 1])
     s->at[0] = last;
     s->n = 1;
     q->pending = 0;
+    q->borrowed = 0;
     return certify(q, weight);
 }
 
