@@ -36,6 +36,7 @@ ROW = 0.2  # inches, from row to row
 LINE = 0.157  # inches, from name to name beside a plot
 PAGE = "#0303ff"
 TIME = "ns per query, median"
+FARTHEST = 1e3  # of errors, in scales: some say numbers from the end of the format
 PROMISED = {"linestyle": (0, (2, 1.5)), "linewidth": 1.0, "alpha": 0.55, "markersize": 2.5}
 FLOOR = {"linestyle": (0, (1.2, 1.2)), "linewidth": 1.2, "marker": "_"}
 
@@ -231,12 +232,17 @@ def _draw_errors(plot, place, looks):
         name = f"{library}, warm" if warm else library
         width = 1.0 if knob == "steps" or warm else 1.6
         face = PAGE if warm else look["color"]
-        plot.curve(f"{name} {knob}", [(a.median, max(error_of(a), floor)) for a in drawn], look,
+        plot.curve(f"{name} {knob}", [(a.median, _height(error_of(a), floor)) for a in drawn], look,
                    drawn and name_once(name), linewidth=width, markersize=3.6, markerfacecolor=face)  # fmt: skip
-        plot.curve(f"{name} {knob} promised", [(a.median, max(a.promised, floor)) for a in promised],
+        plot.curve(f"{name} {knob} promised", [(a.median, _height(a.promised, floor)) for a in promised],
                    {**look, **PROMISED}, len(promised) > 1 and name_once("promised"))  # fmt: skip
         _mark(plot.axes, drawn, floor, look)
     _error_axes(plot, scale)
+
+
+def _height(error, floor):
+    """Where an error is drawn: what is below or beyond the axis, at its end."""
+    return min(max(error, floor), FARTHEST)
 
 
 def _mark(axes, answers, floor, look):
@@ -245,7 +251,7 @@ def _mark(axes, answers, floor, look):
     cross = {"color": INK, "marker": "x", "markersize": 4, "markeredgewidth": 0.8}
     for marked, mark in (([a for a in answers if a.default], own), ([a for a in answers if a.bad], cross)):
         if marked:
-            at = [a.median for a in marked], [max(error_of(a), floor) for a in marked]
+            at = [a.median for a in marked], [_height(error_of(a), floor) for a in marked]
             axes.plot(*at, linestyle="none", clip_on=False, **mark)
 
 
