@@ -3,21 +3,13 @@
 #ifndef GJK_CORE_API_H
 #define GJK_CORE_API_H
 
+#include "answer.h"
 #include "fine.h"
 #include "intersect.h"
+#include "plain.h"
 #include "widen.h"
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
-
-/* A number times 0 is 0, unless it is none or not finite. */
-static int sound(const shape *s)
-{
-    if (!s || !s->support || !(s->radius >= 0 && s->radius <= REAL_MAX / 16)) return 0;
-    real none = 0;
-    for (int i = 0; i < DIM * DIM && s->pose; i++) none += s->pose->m[i] * 0;
-    for (int i = 0; i < DIM && s->pose; i++) none += s->pose->p[i] * 0;
-    return none == 0;
-}
 
 /* Of another age: a shorter struct ends before the pointers, or after one; what a longer one says beyond the end of
  * ours must be nothing. */
@@ -53,7 +45,7 @@ static void remember(cache *k, const search *q, const shape *a, const shape *b)
     if (q->kept) return;
     int n = q->s.n, lent = 1;
     for (int i = 0; i < n; i++) lent &= (int)(q->borrowed >> q->s.at[i] & 1);
-    if (lent && q->repeated) return; /* nothing new: the cache may hold more than this simplex */
+    if (lent && (q->repeated || !q->pending)) return; /* nothing new: the cache may hold more than this simplex */
     if (q->d.loose) return;
     if (q->pending && !q->repeated) n++; /* the corner in the spare slot: the next query may be answered with it */
     for (int i = 0; i < n; i++) {
@@ -83,12 +75,21 @@ static goal scaled(const goal *g, real scale)
 
 /* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation;
  * FAULT also where the bounds cross, which points of two convex sets never do. */
-static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, real *upper,
-                    real weight[])
+static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
+                    real *upper, real weight[])
 {
     int warm = o->cache != NULL;
     enum end end;
-    q->d.calls = 0;
+    if (walked != FAULT) {
+        goal here = scaled(g, q->d.scale);
+        end = walked;
+        if (end == STILL && !q->repeated && !g->sign_only) q->stuck = is_lower(q);
+        if (end == OPEN && q->steps < g->max_steps) end = search_on(q, &here, upper, weight);
+        else *upper = certify(q, weight);
+        real inside = walked == INSIDE ? q->inside : end == INSIDE ? room(&q->s) : 0;
+        if (inside > q->d.doubt) *upper = q->d.doubt - inside;
+        if (end != FAULT && q->lower <= *upper) return end;
+    }
     for (;;) {
         end = FAULT;
         if (warm) warm = open_warm(q, a, b, o->slack, o->cache);
@@ -96,8 +97,8 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
             goal here = scaled(g, q->d.scale);
             end = search_on(q, &here, upper, weight);
             if (end == BEYOND && g->sign_only && q->lender) {
-                q->kept = 1; /* for the next query */
-                *upper = stand_on_last(q, weight);
+                stand_on_last(q);
+                *upper = certify(q, weight);
             }
         }
         if (end != FAULT) {
@@ -120,81 +121,6 @@ static int tell(search *q, const goal *g, real *upper, enum end *end)
     enum end told = probe(q, g->max_steps, upper);
     if (told == OPEN) *end = OPEN;
     return told != FAULT;
-}
-
-/* The power of two that brings the largest of the pair, the radius and how far it is from the world's origin to size:
- * to what is reckoned in that unit no other makes a difference. */
-static real level_of(const difference *d, real radius, real far)
-{
-    if (radius == 0 && far == 0) return d->scale;
-    return smaller(d->scale, smaller(leveler(size(radius)), leveler(far))); /* a radius may be -0 */
-}
-
-/* A number below x + y + z; level * each is of size 1 at most. */
-static real below_sum(real x, real y, real z)
-{
-    twin r = sum_of(y, z), s = sum_of(x, r.high);
-    s = sum_of(s.high, s.low + r.low);
-    return below(s.high, s.low - 4 * UNIT * UNIT * (size(x) + size(r.high)), 0);
-}
-
-/* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
-static void bracket(result *r, const difference *d, real lower, real upper, const shape *a, const shape *b)
-{
-    real level = level_of(d, a->radius + b->radius, 0), down = level * d->unscale, up = 1 / level;
-    real near = lower * down, far = upper * down;
-    if (a->radius > 0 || b->radius > 0) {
-        near = below_sum(near, -a->radius * level, -b->radius * level);
-        far = -below_sum(-far, a->radius * level, b->radius * level);
-    }
-    r->lower = larger(near * up, -REAL_MAX);
-    r->upper = far * up;
-    if (size(r->lower) < REAL_MIN && near != 0) r->lower -= 2 * TINY; /* it was rounded on the way out */
-    if (size(r->upper) < REAL_MIN && far != 0) r->upper += 2 * TINY;
-}
-
-/* At the edge of the numbers where these end before the body does. */
-static vec in_range(vec x)
-{
-    EACH(x.c[i] = larger(smaller(x.c[i], REAL_MAX), -REAL_MAX));
-    return x;
-}
-
-/* The body's point in the world, times level; down leads there from the search's frame. */
-static vec witness_of(const body *k, const pose *o, const simplex *s, const real weight[], size_t member, real down,
-                      real level)
-{
-    vec x = blend(s, weight, member, k->grain);
-    if (!k->posed) return mul(x, down);
-    return add(mul(map(k->m, x), down), mul(load(o->p), level));
-}
-
-static real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
-
-/* The witnesses, from the cores' to the shapes': each moves toward the other by its radius, or, where the radii reach
- * across, both move to one point between. */
-static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b, int deep)
-{
-    real radius = a->radius + b->radius, far = larger(far_out(a), far_out(b));
-    int plain = !q->d.wild && far < PLAIN && radius < PLAIN;
-    real level = plain ? 1 : level_of(&q->d, radius, far), down = level * q->d.unscale;
-    vec on_a = witness_of(&q->d.a, a->pose, &q->s, weight, offsetof(vertex, x), down, level);
-    vec on_b = witness_of(&q->d.b, b->pose, &q->s, weight, offsetof(vertex, y), down, level);
-    vec way = blend(&q->s, weight, offsetof(vertex, w), 1);
-    real l = length(way);
-    if (deep > 1 || (deep && r->upper <= 0)) {
-        on_a = add(on_a, mul(q->normal, a->radius * level));
-        on_b = sub(on_b, mul(q->normal, b->radius * level));
-    } else if (r->upper <= 0 || l * down < radius * level) {
-        real share = a->radius > 0 ? a->radius / radius : 0;
-        on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
-    } else if (radius > 0) {
-        vec toward_b = l > 0 ? mul(way, -1 / l) : q->normal;
-        on_a = add(on_a, mul(toward_b, a->radius * level));
-        on_b = sub(on_b, mul(toward_b, b->radius * level));
-    }
-    store(r->point_a, plain ? on_a : in_range(mul(on_a, 1 / level)));
-    store(r->point_b, plain ? on_b : in_range(mul(on_b, 1 / level)));
 }
 
 /* The cores may be as near to each other, or the shapes to contact, as rounding hides; or rounding does not explain the
@@ -368,13 +294,14 @@ static enum end go_deep(search *q, const shape *a, const shape *b, const options
     return further == FAULT ? end : further;
 }
 
-/* What the questions share: the cores' search, its bracket with the radii taken off, and what a finish adds. FAULT: a
+/* The cores' search from where the walk stands, its bracket with the radii taken off, and what a finish adds. FAULT: a
  * support's answer was none, or the bounds cross. */
-static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
+                      result *r)
 {
     real upper, weight[DIM + 1];
     q->met = 0;
-    enum end end = run(q, a, b, o, g, &upper, weight), further = FAULT;
+    enum end end = run(q, a, b, o, g, walked, &upper, weight), further = FAULT;
     int still = end == STILL || end == INSIDE;
     /* the distance of known corners needs no probing, the exact finish tells more; overlap does */
     int probed = still && !g->deep && (g->sign_only || !g->exact);
@@ -401,13 +328,15 @@ static int tight_enough(const result *r, const difference *d, real radius, real 
     return (r->upper - r->lower) * level <= rounding;
 }
 
-static int distance_status(const result *r, const options *o, enum end end, const difference *d, real radius, int deep)
+static int distance_status(const result *r, const options *o, enum end end, const search *q, real radius, int deep)
 {
-    real level = level_of(d, radius, 0);
+    int tolerant = o->abs_tol > 0 || o->rel_tol > 0;
     if (o->cutoff > 0 && r->lower > o->cutoff) return GJK_DECIDED;
+    if (q->told && end == STILL && !tolerant) return GJK_OK;
+    real level = level_of(&q->d, radius, 0);
     if (narrow(r, o, deep, level) || end == WITHIN) return GJK_OK;
     if (end == OPEN) return GJK_LIMIT;
-    return o->abs_tol == 0 && o->rel_tol == 0 && tight_enough(r, d, radius, level) ? GJK_OK : GJK_FLOOR;
+    return !tolerant && tight_enough(r, &q->d, radius, level) ? GJK_OK : GJK_FLOOR;
 }
 
 /* The bracket is about as narrow as its numbers can be. */
@@ -416,13 +345,36 @@ static int is_to_last_place(const result *r)
     return r->upper - r->lower <= 8 * UNIT * larger(size(r->lower), size(r->upper)) + 8 * TINY;
 }
 
+/* The everyday way, of sets whose corners are known. How far it led; FAULT: nowhere. q->told: to the answer. */
+static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    q->told = q->d.calls = 0;
+    if (o->tight || !(o->slack == 0) || !open_listed(q, a, b, o->cache)) return FAULT;
+    goal here = scaled(g, q->d.scale);
+    enum end end = stroll(q, &here);
+    q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, &here, end, r);
+    if (q->told && o->cache) remember(o->cache, q, a, b);
+    return end;
+}
+
+/* What the questions share. Not 0: the caller's mistake. */
+static int reply_to(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end *end,
+                    result *r)
+{
+    *end = answer_plainly(q, a, b, o, g, r);
+    if (q->told) return 0;
+    if (!sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
+    *end = solve(q, a, b, o, g, *end, r);
+    return *end == FAULT ? GJK_BAD_SUPPORT : 0;
+}
+
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
     const options *o = read_options(&own, given);
     search q;
     result r;
-    if (!o || !out || !sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
+    if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
@@ -435,12 +387,13 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
     g.early = radius > 0 || o->abs_tol > 0 || o->rel_tol > 0;
 
-    enum end end = solve(&q, a, b, o, &g, &r);
-    if (end == FAULT) return GJK_BAD_SUPPORT;
+    enum end end;
+    int bad = reply_to(&q, a, b, o, &g, &end, &r);
+    if (bad) return bad;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, o, end, &q.d, radius, 0);
+    r.status = distance_status(&r, o, end, &q, radius, 0);
     *out = r;
     return r.status;
 }
@@ -451,7 +404,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     const options *o = read_options(&own, given);
     search q;
     result r;
-    if (!o || !out || !sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
+    if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
               .within = radius * (1 - 16 * UNIT),
@@ -462,8 +415,9 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .exact = EXACT && o->slack == 0 && has_corners(a) && has_corners(b),
               .max_steps = (int)o->max_steps};
 
-    enum end end = solve(&q, a, b, o, &g, &r);
-    if (end == FAULT) return GJK_BAD_SUPPORT;
+    enum end end;
+    int bad = reply_to(&q, a, b, o, &g, &end, &r);
+    if (bad) return bad;
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;
@@ -488,7 +442,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     const options *o = read_options(&own, given);
     search q;
     result r;
-    if (!o || !out || !sound(a) || !sound(b) || !has_workspace(o)) return GJK_BAD_ARGUMENT;
+    if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
@@ -502,10 +456,11 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     g.tight = g.exact && o->tight;
     if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
 
-    enum end end = solve(&q, a, b, o, &g, &r);
-    if (end == FAULT) return GJK_BAD_SUPPORT;
+    enum end end;
+    int bad = reply_to(&q, a, b, o, &g, &end, &r);
+    if (bad) return bad;
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, o, end, &q.d, radius, 1);
+    r.status = distance_status(&r, o, end, &q, radius, 1);
     if (g.tight && r.status == GJK_OK && !narrow(&r, o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
     *out = r;
     return r.status;

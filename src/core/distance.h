@@ -51,10 +51,12 @@ typedef struct search {
     int pending;   /* s's spare slot holds a corner that was asked for and not taken in */
     int repeated;  /* because it stood in the simplex already */
     int stuck;     /* because it brought v no nearer, although it lies lower along v */
+    real inside;   /* room in a full simplex, where that has been told */
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
     int fine;            /* the bounds are those of corners known to twice the digits, and carry no doubt */
     twin apart;          /* then: the cores' distance */
+    int told;            /* the answer is found, without more ado */
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
@@ -220,11 +222,12 @@ static inline int advance(search *q)
     return 1;
 }
 
-/* A full simplex that holds the origin, but so narrow that rounding may have put it there, gives way to the face that
- * the origin is nearest to. */
+/* v anew, of a simplex that nothing is known of. A full one that holds the origin, but is so narrow that rounding may
+ * have put it there, gives way to the face that the origin is nearest to: it does not count as a whole. */
 static void project(search *q, int whole)
 {
-    q->v = nearest_of_all(&q->s, 0, whole, 0);
+    real weight[DIM + 1];
+    if (!whole || !part(&q->s, (1u << q->s.n) - 1, 0, &q->v, weight)) q->v = nearest_of_all(&q->s, 0, whole, 0);
     q->vv = dot(q->v, q->v);
 }
 
@@ -235,21 +238,39 @@ static vec lost_of(const search *q, const vertex *p)
     return remainder_of(d, mul(p->x, d->a.grain), axis(0, 0), mul(p->y, d->b.grain), axis(0, 0), p->w);
 }
 
-/* By how much a corner lies lower along v than the simplex, without the roundings of either. */
-static real fine_gap(const search *q, const vertex *p)
-{
-    const vertex *from = corner(&q->s, 0);
-    return dot(q->v, add(sub(from->w, p->w), sub(lost_of(q, from), lost_of(q, p))));
-}
+/* What rounding may make of the gap between v and a corner's height. */
+static inline real noise_along(vec v, vec w) { return UNIT / 2 * dot_size(v, w); }
 
 /* By how many roundings of the gap a corner may lie lower than a simplex of n, and still be left out where an exact
  * finish could take it in. v of an edge or a face rounds itself, that of a single corner does not. */
 static inline real forgiven(int n) { return (real)(n == 1 ? 0.25 : n == 2 ? 1 : 4); }
 
+/* The corner in the spare slot lies lower along v than the simplex, by more than is forgiven, without the roundings of
+ * either. */
+static int is_lower(const search *q)
+{
+    const vertex *from = corner(&q->s, 0), *last = corner(&q->s, q->s.n);
+    real gap = dot(q->v, add(sub(from->w, last->w), sub(lost_of(q, from), lost_of(q, last))));
+    return gap > forgiven(q->s.n) * noise_along(q->v, last->w);
+}
+
+/* As wide may a bracket of the cores be that ends there. */
+static inline real asked_of(const goal *g, real upper)
+{
+    return g->abs_tol + g->rel_tol * (upper - g->radius) - 16 * UNIT * (upper + g->radius); /* the radius taken off */
+}
+
+/* Whether v is near enough, or the bracket narrow enough; OPEN: neither. */
+static enum end judge(const search *q, const goal *g)
+{
+    real weight[DIM + 1], upper = root(q->vv) + q->d.doubt, asked = asked_of(g, upper);
+    if (upper < g->within && certify(q, weight) < g->within) return WITHIN;
+    return upper - q->lower <= asked && certify(q, weight) - q->lower <= asked ? CLOSE : OPEN;
+}
+
 /* What the corner in the spare slot shows; OPEN where the search may go on. */
 static inline enum end consider(search *q, const goal *g)
 {
-    real weight[DIM + 1];
     const vertex *last = spare(&q->s);
     q->steps++;
     q->pending = 1;
@@ -259,11 +280,11 @@ static inline enum end consider(search *q, const goal *g)
         return BEYOND;
     }
     if (q->s.n > 0) {
-        real gap = dot(q->v, sub(q->v, last->w)), noise = UNIT / 2 * dot_size(q->v, last->w);
+        real gap = dot(q->v, sub(q->v, last->w));
         for (int i = 0; i < q->s.n; i++) q->repeated |= repeats(corner(&q->s, i), last);
         if (q->repeated) return STILL;
-        if (!(gap > noise)) {
-            q->stuck = g->exact && !g->sign_only && fine_gap(q, last) > forgiven(q->s.n) * noise;
+        if (!(gap > noise_along(q->v, last->w))) {
+            q->stuck = g->exact && !g->sign_only && is_lower(q);
             return STILL;
         }
     }
@@ -276,12 +297,7 @@ static inline enum end consider(search *q, const goal *g)
         project(q, 0);
     }
     if (vanished(q)) return STILL;
-    if (!g->early) return OPEN;
-    real upper = root(q->vv) + q->d.doubt;
-    if (upper < g->within && certify(q, weight) < g->within) return WITHIN;
-    real asked =
-        g->abs_tol + g->rel_tol * (upper - g->radius) - 16 * UNIT * (upper + g->radius); /* and the radius taken off */
-    return upper - q->lower <= asked && certify(q, weight) - q->lower <= asked ? CLOSE : OPEN;
+    return g->early ? judge(q, g) : OPEN;
 }
 
 /* p was handed out just now. If it is one of the lender's, to the bit, the sets are still those that it knew. */
@@ -373,22 +389,16 @@ static int open_cold(search *q, const shape *a, const shape *b, real slack)
     return meet(&q->d, q->v, slack, spare(&q->s));
 }
 
-/* From the points of the last query, as corners on trust: they are points of these sets only if the sets still answer
- * as they did. The search ends well if no borrowed corner is left in its simplex, or if one of the lender's points was
- * handed out again, to the bit; see settled. The first call also tells whether the reaches are the same. */
-static int open_warm(search *q, const shape *a, const shape *b, real slack, const cache *k)
+/* Whether the cache holds points of these sets, as far as their names say. */
+static int lends(const cache *k, const shape *a, const shape *b)
 {
-    real reach[2];
-    vertex first;
-    blank(q);
-    if (!start(&q->d, a, b)) return 0;
-    if (k->count == 0 || k->count > DIM + 1) return 0;
-    if (k->support[0] != a->support || k->support[1] != b->support) return 0;
-    if (k->data[0] != a->data || k->data[1] != b->data) return 0;
-    if (!(k->reach_a > 0 && k->reach_a <= REAL_MAX && k->reach_b > 0 && k->reach_b <= REAL_MAX)) return 0;
-    know_reach(&q->d.a, k->reach_a);
-    know_reach(&q->d.b, k->reach_b);
-    if (!settle(&q->d, slack)) return 0;
+    return k->count > 0 && k->count <= DIM + 1 && k->support[0] == a->support && k->support[1] == b->support &&
+           k->data[0] == a->data && k->data[1] == b->data;
+}
+
+/* Its points as corners on trust. 0: they are not within the reaches. */
+static int borrow(search *q, const cache *k)
+{
     for (uint32_t i = 0; i < k->count; i++) {
         vertex *p = spare(&q->s);
         p->x = load(k->a[i]);
@@ -400,6 +410,22 @@ static int open_warm(search *q, const shape *a, const shape *b, real slack, cons
     q->lender = k;
     q->borrowed = (1u << k->count) - 1;
     project(q, 1);
+    return 1;
+}
+
+/* From the points of the last query, as corners on trust: they are points of these sets only if the sets still answer
+ * as they did. The search ends well if no borrowed corner is left in its simplex, or if one of the lender's points was
+ * handed out again, to the bit; see settled. The first call also tells whether the reaches are the same. */
+static int open_warm(search *q, const shape *a, const shape *b, real slack, const cache *k)
+{
+    real reach[2];
+    vertex first;
+    blank(q);
+    if (!start(&q->d, a, b) || !lends(k, a, b)) return 0;
+    if (!(k->reach_a > 0 && k->reach_a <= REAL_MAX && k->reach_b > 0 && k->reach_b <= REAL_MAX)) return 0;
+    know_reach(&q->d.a, k->reach_a);
+    know_reach(&q->d.b, k->reach_b);
+    if (!settle(&q->d, slack) || !borrow(q, k)) return 0;
     vec dir = vanished(q) ? away(q) : q->v;
     if (!ask_first(&q->d, dir, &first, reach)) return 0;
     first.w = corner_of(&q->d, first.x, first.y);
@@ -427,9 +453,9 @@ static int settled(search *q)
 }
 
 /* Where the corner handed out last proves the sets apart, and that is all that is asked, it alone is the simplex:
- * whether borrowed corners are good is of no account then. Returns the bound from above. The cache must not get that
- * corner beside others that nobody has vouched for: handed out again, it would vouch for them. */
-static real stand_on_last(search *q, real weight[DIM + 1])
+ * whether borrowed corners are good is of no account then. The cache must not get that corner beside others that nobody
+ * has vouched for: handed out again, it would vouch for them; so it stays as it is, for the next query. */
+static void stand_on_last(search *q)
 {
     simplex *s = &q->s;
     int last = s->at[s->n];
@@ -438,7 +464,7 @@ static real stand_on_last(search *q, real weight[DIM + 1])
     s->n = 1;
     q->pending = 0;
     q->borrowed = 0;
-    return certify(q, weight);
+    q->kept = 1;
 }
 
 #endif

@@ -44,6 +44,13 @@ static inline twin product_of_halves(real a, halves h, real b, halves k)
 
 static inline twin product_of(real a, real b) { return product_of_halves(a, halves_of(a), b, halves_of(b)); }
 
+static inline twin square_of(real a)
+{
+    halves h = halves_of(a);
+    real p = a * a;
+    return (twin){p, ((h.upper * h.upper - p) + 2 * h.upper * h.lower) + h.lower * h.lower};
+}
+
 static inline twin product_of_twins(twin a, twin b)
 {
     twin r = product_of(a.high, b.high);

@@ -25,19 +25,21 @@
 #define EASE ((real)0.0625)
 
 /* How the body's points are found once its support has answered for the first time, and with that for its data. */
-enum asked { BY_CALL, AS_BOX, AS_CLOUD };
+enum asked { BY_CALL, AS_BOX, AS_LIST };
 
 typedef struct body {
     support_fn *support;
     support_in *in; /* of a ready-made round set: asked instead, in the set's own unit */
     const void *data;
     enum asked asked;
+    list list; /* then: of its corners */
     real unit; /* a power of two: points and reach are the caller's times that */
     real size; /* to a binade or two, if known before any call; 0: all points are 0; else NaN */
     int posed;
     real m[DIM * DIM]; /* the pose's map; where sizes are wild, once the scale is known, from points of size 1 to the
                           scaled frame */
     real stretch;      /* bounds the pose's map */
+    real norm;         /* likewise m */
     real reach;        /* bounds the set's points, in its unit; 0: not known yet */
     real limit;        /* no coordinate of a point is above this */
     real grain;        /* the power of two that the set's points come times: to the frame; where sizes are wild and
@@ -107,7 +109,7 @@ static inline int farthest(difference *d, body *k, vec v, vec *x)
     real reach;
     if (k->asked == BY_CALL) return call(d, k, dir, x, &reach);
     d->calls++;
-    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : corner_of_cloud(k->data, dir);
+    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : farthest_listed(&k->list, dir);
     return fits(k, *x);
 }
 
@@ -184,12 +186,23 @@ static int measure(difference *d, body *k, real said, real slack)
 /* Of directions, so that the heights of a set of size 1 in that unit do not underflow. */
 static real lifting(real unit) { return smaller(larger(unit, 1), LIFT); }
 
+/* A number times 0 is 0, unless it is none or not finite. */
+static int sound(const shape *s)
+{
+    if (!s || !s->support || !(s->radius >= 0 && s->radius <= REAL_MAX / 16)) return 0;
+    real none = 0;
+    for (int i = 0; i < DIM * DIM && s->pose; i++) none += s->pose->m[i] * 0;
+    for (int i = 0; i < DIM && s->pose; i++) none += s->pose->p[i] * 0;
+    return none == 0;
+}
+
 static void seize(body *k, const shape *s)
 {
     view set = know(s);
     k->support = s->support;
     k->data = s->data;
-    k->asked = s->support == pub(support_points) ? AS_CLOUD : s->support == pub(support_box) ? AS_BOX : BY_CALL;
+    k->asked = s->support == pub(support_points) ? AS_LIST : s->support == pub(support_box) ? AS_BOX : BY_CALL;
+    if (k->asked == AS_LIST && s->data) k->list = list_of_cloud(s->data);
     k->in = set.in;
     k->unit = set.in ? own_unit(&set) : 1;
     k->size = set.size;
@@ -220,7 +233,8 @@ static APART void fit_wild(body *k, real scale)
     int e = exponent_of(scale) - exponent_of(k->unit) - exponent_of(level);
     k->grain = k->posed ? level : scale / k->unit;
     for (int i = 0; i < DIM * DIM && k->posed; i++) k->m[i] = k->size == 0 ? 0 : raised(k->m[i], e);
-    k->ease = k->posed ? leveler(larger(stretch(k->m), REAL_MIN)) : 1;
+    k->norm = k->posed ? larger(stretch(k->m), REAL_MIN) : 1;
+    k->ease = leveler(k->norm);
     k->lift = k->in ? 1 : lifting(level);
 }
 
@@ -234,6 +248,13 @@ static void fit(body *k, real scale, int wild)
     k->grain = k->in ? scale / k->unit : scale;
     k->ease = larger(leveler(k->stretch), EASE);
     k->rest = leveler(k->stretch) / k->ease;
+    k->norm = k->stretch;
+}
+
+/* Rounding, of bodies that reach so far in the frame, and lie c apart. */
+static inline real doubt_of(const difference *d, real a, real b, real c)
+{
+    return UNIT * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
 }
 
 /* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
@@ -253,7 +274,7 @@ static int settle(difference *d, real slack)
     a *= d->scale;
     b *= d->scale;
     c *= d->scale;
-    d->doubt = UNIT * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
+    d->doubt = doubt_of(d, a, b, c);
     if (d->wild) { /* products that underflow here, and in the supports where reaches are faint */
         if (whole < REAL_MIN) d->doubt += 64 * TINY * d->scale;
         if (faint(far_a)) d->doubt += 64 * TINY * d->scale * larger(1, d->a.stretch);
@@ -266,17 +287,22 @@ static int settle(difference *d, real slack)
     return d->doubt <= REAL_MAX;
 }
 
+/* From A's position to B's, in the caller's unit. */
+static inline void offset(difference *d, const pose *a, const pose *b)
+{
+    for (int i = 0; i < DIM; i++) {
+        twin c = sum_of(b ? b->p[i] : 0, a ? -a->p[i] : 0);
+        d->c.c[i] = c.high;
+        d->c_low.c[i] = c.low;
+    }
+}
+
 /* 0 where a map is too large for its norm to be a number. */
 static int start(difference *d, const shape *a, const shape *b)
 {
     seize(&d->a, a);
     seize(&d->b, b);
-    d->c = d->c_low = axis(0, 0);
-    for (int i = 0; i < DIM; i++) {
-        twin c = sum_of(b->pose ? b->pose->p[i] : 0, a->pose ? -a->pose->p[i] : 0);
-        d->c.c[i] = c.high;
-        d->c_low.c[i] = c.low;
-    }
+    offset(d, a->pose, b->pose);
     d->scale = 1;
     d->wild = !is_tame(&d->a) || !is_tame(&d->b); /* until known better */
     if (d->wild) {

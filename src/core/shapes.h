@@ -139,11 +139,19 @@ GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out
     return p->reach;
 }
 
-/* The same of points that it has answered for. */
-static inline vec corner_of_cloud(const points *p, vec dir)
+/* Corners, one after another, and a bound on how far out they lie. */
+typedef struct list {
+    const real *v;
+    size_t count, step;
+    real reach;
+} list;
+
+static inline list list_of_cloud(const points *p) { return (list){p->v, p->count, stride_of(p), p->reach}; }
+
+/* The same of corners that have answered once. */
+static inline vec farthest_listed(const list *l, vec dir)
 {
-    size_t step = stride_of(p);
-    return load(p->v + step * farthest_among(p->v, p->count, step, p->reach, dir, 1));
+    return load(l->v + l->step * farthest_among(l->v, l->count, l->step, l->reach, dir, 1));
 }
 
 static inline vec corner_of_box(const box *b, vec dir)
@@ -161,15 +169,22 @@ GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DI
     return at_most(load(b->half));
 }
 
-/* Among n corners. */
-static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])
+/* n corners, packed. */
+static inline list list_of(const real (*v)[DIM], size_t n)
 {
     real reach = 0;
     for (size_t i = 0; i < n; i++) reach = larger(at_most(load(v[i])), reach);
-    size_t best = farthest_among(v[0], n, DIM, smaller(reach, REAL_MAX), load(dir), 0);
-    if (best == n || !(reach <= REAL_MAX)) return refuse(out);
+    return (list){v[0], n, DIM, reach};
+}
+
+/* Among n corners. */
+static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])
+{
+    list l = list_of(v, n);
+    size_t best = farthest_among(l.v, n, DIM, smaller(l.reach, REAL_MAX), load(dir), 0);
+    if (best == n || !(l.reach <= REAL_MAX)) return refuse(out);
     store(out, load(v[best]));
-    return reach;
+    return l.reach;
 }
 
 GJK_API real pub(support_segment)(const void *data, const real dir[DIM], real out[DIM])

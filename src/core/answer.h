@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+/* From the search's frame to the caller's: the bracket with the radii taken off, and the pair of points. */
+#ifndef GJK_CORE_ANSWER_H
+#define GJK_CORE_ANSWER_H
+
+#include "distance.h"
+
+/* The power of two that brings the largest of the pair, the radius and how far it is from the world's origin to size:
+ * to what is reckoned in that unit no other makes a difference. */
+static real level_of(const difference *d, real radius, real far)
+{
+    if (radius == 0 && far == 0) return d->scale;
+    return smaller(d->scale, smaller(leveler(size(radius)), leveler(far))); /* a radius may be -0 */
+}
+
+/* A number below x + y + z; level * each is of size 1 at most. */
+static real below_sum(real x, real y, real z)
+{
+    twin r = sum_of(y, z), s = sum_of(x, r.high);
+    s = sum_of(s.high, s.low + r.low);
+    return below(s.high, s.low - 4 * UNIT * UNIT * (size(x) + size(r.high)), 0);
+}
+
+/* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
+static void bracket(result *r, const difference *d, real lower, real upper, const shape *a, const shape *b)
+{
+    int sharp = !(a->radius > 0 || b->radius > 0);
+    if (sharp && !d->wild) {
+        r->lower = lower * d->unscale;
+        r->upper = upper * d->unscale;
+        return;
+    }
+    real level = level_of(d, a->radius + b->radius, 0), down = level * d->unscale, up = 1 / level;
+    real near = lower * down, far = upper * down;
+    if (!sharp) {
+        near = below_sum(near, -a->radius * level, -b->radius * level);
+        far = -below_sum(-far, a->radius * level, b->radius * level);
+    }
+    r->lower = larger(near * up, -REAL_MAX);
+    r->upper = far * up;
+    if (size(r->lower) < REAL_MIN && near != 0) r->lower -= 2 * TINY; /* it was rounded on the way out */
+    if (size(r->upper) < REAL_MIN && far != 0) r->upper += 2 * TINY;
+}
+
+/* At the edge of the numbers where these end before the body does. */
+static vec in_range(vec x)
+{
+    EACH(x.c[i] = larger(smaller(x.c[i], REAL_MAX), -REAL_MAX));
+    return x;
+}
+
+/* The body's point, x times its grain, in the world, times level; down leads there from the search's frame. */
+static vec in_world(const body *k, const pose *o, vec x, real down, real level)
+{
+    if (!k->posed) return mul(x, down);
+    return add(mul(map(k->m, x), down), mul(load(o->p), level));
+}
+
+static real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
+
+/* The points x and y of the bodies, times their grain, way apart in the frame, from the cores' to the shapes': each
+ * moves toward the other by its radius, or, where the radii reach across, both move to one point between. */
+static void place_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b, int deep)
+{
+    real radius = a->radius + b->radius, far = larger(far_out(a), far_out(b));
+    int plain = !q->d.wild && far < PLAIN && radius < PLAIN;
+    if (plain && radius == 0 && (r->upper > 0 || deep)) {
+        store(r->point_a, in_world(&q->d.a, a->pose, x, q->d.unscale, 1));
+        store(r->point_b, in_world(&q->d.b, b->pose, y, q->d.unscale, 1));
+        return;
+    }
+    real level = plain ? 1 : level_of(&q->d, radius, far), down = level * q->d.unscale, l = length(way);
+    vec on_a = in_world(&q->d.a, a->pose, x, down, level), on_b = in_world(&q->d.b, b->pose, y, down, level);
+    if (deep > 1 || (deep && r->upper <= 0)) {
+        on_a = add(on_a, mul(q->normal, a->radius * level));
+        on_b = sub(on_b, mul(q->normal, b->radius * level));
+    } else if (r->upper <= 0 || l * down < radius * level) {
+        real share = a->radius > 0 ? a->radius / radius : 0;
+        on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
+    } else if (radius > 0) {
+        vec toward_b = l > 0 ? mul(way, -1 / l) : q->normal;
+        on_a = add(on_a, mul(toward_b, a->radius * level));
+        on_b = sub(on_b, mul(toward_b, b->radius * level));
+    }
+    store(r->point_a, plain ? on_a : in_range(mul(on_a, 1 / level)));
+    store(r->point_b, plain ? on_b : in_range(mul(on_b, 1 / level)));
+}
+
+/* Those that the weights single out. */
+static void witness(result *r, const search *q, const real weight[], const shape *a, const shape *b, int deep)
+{
+    vec x = blend(&q->s, weight, offsetof(vertex, x), q->d.a.grain);
+    vec y = blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain);
+    place_points(r, q, x, y, blend(&q->s, weight, offsetof(vertex, w), 1), a, b, deep);
+}
+
+#endif

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+/* Sets whose corners can be listed: how a query of two such is opened, and what they are asked in the search. It is
+ * that of distance.h, but for what is not needed: nothing is asked of a set to open the query, of plain sizes no
+ * direction is brought to size, and what a cache lends is looked up, not taken on trust. */
+#ifndef GJK_CORE_LISTED_H
+#define GJK_CORE_LISTED_H
+
+#include "answer.h"
+
+/* The set's corners and its reach, without a call. 0: it has none that can be listed, or not that reach, or the data
+ * describe no set. */
+static inline int list_corners(body *k, const shape *s)
+{
+    static const real nothing[DIM] = {0};
+    k->asked = AS_LIST;
+    if (s->support == pub(support_points)) {
+        const points *p = s->data;
+        if (!p || !cloud(p) || !(p->reach > TINY)) return 0;
+        k->list = list_of_cloud(p);
+    } else if (s->support == pub(support_box)) {
+        const box *b = s->data;
+        if (!b || !sized(b->half, DIM)) return 0;
+        k->asked = AS_BOX;
+        k->list.reach = at_most(load(b->half));
+    } else if (s->support == pub(support_segment)) {
+        const segment *e = s->data;
+        if (!e) return 0;
+        k->list = list_of(e->v, 2);
+#if DIM == 3
+    } else if (s->support == pub(support_triangle)) {
+        const triangle *t = s->data;
+        if (!t) return 0;
+        k->list = list_of(t->v, 3);
+#endif
+    } else {
+        k->list = (list){nothing, 1, DIM, padded(0)};
+        return s->support == pub(support_origin);
+    }
+    return 1;
+}
+
+/* 0: it is not of plain sizes. A number that is none may pass; then no corner has one, and nothing is told. */
+static inline int seize_plain(body *k, const shape *s)
+{
+    k->support = s->support;
+    k->data = s->data;
+    k->in = NULL;
+    k->stretch = k->unit = k->lift = 1;
+    k->posed = s->pose != NULL;
+    if (k->posed) {
+        memcpy(k->m, s->pose->m, sizeof k->m);
+        k->stretch = stretch(k->m);
+    }
+    know_reach(k, k->list.reach);
+    k->size = k->reach > TINY ? k->reach : 0;
+    return !unruly(k->stretch) && (k->size == 0 || !unruly(k->size)) && s->radius >= 0 && s->radius < PLAIN;
+}
+
+static inline void fit_plain(body *k, real scale)
+{
+    k->grain = scale;
+    k->ease = larger(leveler(k->stretch), EASE);
+    k->rest = 1;
+    k->norm = k->stretch;
+}
+
+/* The frame, as start and settle have it. 0: not all sizes are plain. */
+static int settle_plain(difference *d, const shape *a, const shape *b)
+{
+    if (!seize_plain(&d->a, a) || !seize_plain(&d->b, b)) return 0;
+    offset(d, a->pose, b->pose);
+    real far_a = d->a.stretch * d->a.size, far_b = d->b.stretch * d->b.size, apart = spread(d->c);
+    real whole = far_a + far_b + apart;
+    if (unruly(whole)) return 0;
+    d->scale = leveler(whole);
+    d->unscale = 1 / d->scale;
+    if (unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale)) return 0;
+    fit_plain(&d->a, d->scale);
+    fit_plain(&d->b, d->scale);
+    d->c = mul(d->c, d->scale);
+    d->c_low = mul(d->c_low, d->scale);
+    d->doubt = doubt_of(d, far_a * d->scale, far_b * d->scale, apart * d->scale);
+    d->slack = 0;
+    d->wild = d->loose = 0;
+    return 1;
+}
+
+/* The frame of any sizes, now that the reaches are known. 0: the shapes are none, or beyond all numbers. */
+static APART int settle_listed(difference *d, const shape *a, const shape *b)
+{
+    real reach_a = d->a.list.reach, reach_b = d->b.list.reach;
+    if (!sound(a) || !sound(b) || !start(d, a, b)) return 0;
+    know_reach(&d->a, reach_a);
+    know_reach(&d->b, reach_b);
+    return settle(d, 0);
+}
+
+/* ---- asking ---- */
+
+/* The body's corner farthest along the frame's direction, of corners that are known to be numbers or are found to be,
+ * and within their reach. */
+static inline int farthest_plain(const body *k, vec dir, int trusted, vec *x)
+{
+    if (k->posed) dir = pull(k->m, dir);
+    if (!(peak(dir) > 0)) dir = axis(0, 1); /* as levelled has it */
+    if (k->asked == AS_BOX) {
+        *x = corner_of_box(k->data, dir);
+        return 1;
+    }
+    const list *l = &k->list;
+    size_t best = farthest_among(l->v, l->count, l->step, l->reach, dir, trusted);
+    if (best == l->count) return 0;
+    *x = load(l->v + best * l->step);
+    return fits(k, *x);
+}
+
+/* The corner least along v. */
+static inline int ask_plainly(difference *d, vec v, int trusted, vertex *p)
+{
+    d->calls += 2;
+    if (!farthest_plain(&d->a, mul(v, -1), trusted, &p->x) || !farthest_plain(&d->b, v, trusted, &p->y)) return 0;
+    p->w = corner_of(d, p->x, p->y);
+    return 1;
+}
+
+/* The same for the first time, and of any sizes: the supports say whether their data are good. */
+static int ask_anew(difference *d, vec v, vertex *p)
+{
+    real reach[2];
+    if (!d->wild) return ask_plainly(d, v, 0, p);
+    if (!ask_first(d, v, p, reach)) return 0;
+    p->w = corner_of(d, p->x, p->y);
+    return 1;
+}
+
+/* The same, not for the first time. */
+static inline int ask_on(difference *d, vec v, vertex *p) { return d->wild ? ask(d, v, p) : ask_plainly(d, v, 1, p); }
+
+/* x is a corner of the set. */
+static inline int is_corner(const body *k, vec x)
+{
+    const list *l = &k->list;
+    if (k->asked == AS_BOX) return same(corner_of_box(k->data, x), x);
+    for (size_t i = 0; i < l->count; i++)
+        if (l->v[i * l->step] == x.c[0] && same(load(l->v + i * l->step), x)) return 1;
+    return 0;
+}
+
+/* From the points of the last query, if they are corners still: nothing is taken on trust. 0: they are not, or v has no
+ * direction. */
+static int reopen_listed(search *q, const cache *k)
+{
+    vertex p;
+    for (uint32_t i = 0; i < k->count; i++)
+        if (!is_corner(&q->d.a, load(k->a[i])) || !is_corner(&q->d.b, load(k->b[i]))) return 0;
+    if (!borrow(q, k)) return 0;
+    q->lender = NULL;
+    int full = q->s.n > DIM;
+    if (!full && vanished(q)) return 0;
+    vec v = full ? away(q) : q->v;
+    if (!ask_anew(&q->d, v, &p)) return 0;
+    if (!full) {
+        *spare(&q->s) = p;
+        return 1;
+    }
+    q->steps++;
+    raise(q, v, p.w);
+    q->inside = room(&q->s);
+    return 1;
+}
+
+/* From the points of the last query, or from nothing. 0: not all corners can be listed, or there is something wrong.
+ */
+static int open_listed(search *q, const shape *a, const shape *b, const cache *k)
+{
+    blank(q);
+    if (!list_corners(&q->d.a, a) || !list_corners(&q->d.b, b)) return 0;
+    if (!settle_plain(&q->d, a, b) && !settle_listed(&q->d, a, b)) return 0;
+    if (k && lends(k, a, b)) {
+        if (reopen_listed(q, k)) return 1;
+        blank(q);
+    }
+    q->v = first_direction(&q->d);
+    return ask_anew(&q->d, q->v, spare(&q->s));
+}
+
+#endif

@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: MIT */
+/* The everyday case without detours: corners that can be listed, and a gap or an overlap that is more than rounding
+ * blurs. The walk's ends are those of the search, and what it finds is told at once. Whatever is out of the ordinary is
+ * left to the search, which takes over where the walk stands. The bound from below is worked out where it decides. */
+#ifndef GJK_CORE_PLAIN_H
+#define GJK_CORE_PLAIN_H
+
+#include "listed.h"
+
+/* ---- walking ---- */
+
+/* Two corners that differ do so in w, as a rule. */
+static inline int is_repeated(search *q)
+{
+    const vertex *last = spare(&q->s);
+    for (int i = 0; i < q->s.n; i++)
+        if (point(&q->s, i).c[0] == last->w.c[0]) q->repeated |= repeats(corner(&q->s, i), last);
+    return q->repeated;
+}
+
+/* The corner in the spare slot is taken in. 0, and nothing changed: v comes no nearer, or the cores are nearer than
+ * rounding tells. */
+static inline int step_plainly(search *q)
+{
+    simplex *s = &q->s;
+    int at[DIM + 1], n = s->n;
+    memcpy(at, s->at, sizeof at);
+    s->n = n + 1;
+    vec v = nearest(s);
+    real vv = dot(v, v);
+    if (s->n > DIM) q->inside = room(s);
+    if (s->n > DIM ? !(q->inside > q->d.doubt) : !(vv < q->vv && vv > UNIT * UNIT / 4)) {
+        memcpy(s->at, at, sizeof at);
+        s->n = n;
+        return 0;
+    }
+    q->borrowed &= ~(1u << at[n]);
+    q->pending = 0;
+    q->v = v;
+    q->vv = vv;
+    return 1;
+}
+
+/* The corner in the spare slot, of that height times |v|, proves the cores to be apart by more than what is asked for.
+ * Before there is a simplex vv says nothing; else it rarely looks so and is not. What falls short is not kept, so that
+ * a goal out of reach changes nothing. */
+static inline int is_proven_beyond(search *q, real height, real beyond)
+{
+    if (!(height > 0) || (q->s.n > 0 && !(height * height > beyond * beyond * q->vv))) return 0;
+    real lower = q->lower;
+    vec normal = q->normal;
+    raise(q, q->v, spare(&q->s)->w);
+    if (q->lower > beyond) return 1;
+    q->lower = lower;
+    q->normal = normal;
+    return 0;
+}
+
+/* Walks like descend, from the corner in the spare slot, and ends as it does, but for what was stuck. OPEN, with steps
+ * left: something is out of the ordinary with that corner, which is not taken in and not counted. */
+static enum end stroll(search *q, const goal *g)
+{
+    int tolerant = g->abs_tol > 0 || g->rel_tol > 0;
+    int sought = g->beyond < 4;      /* in the frame nothing is farther apart */
+    if (q->s.n > DIM) return INSIDE; /* the last query's simplex */
+    for (;;) {
+        const vertex *last = spare(&q->s);
+        vec v = q->v;
+        real height = dot(v, last->w);
+        enum end end = OPEN;
+        q->pending = 1;
+        if (tolerant) raise(q, v, last->w);
+        if (sought && is_proven_beyond(q, height, g->beyond)) end = BEYOND;
+        else if (q->s.n > 0 && (is_repeated(q) || !(q->vv - height > noise_along(v, last->w)))) end = STILL;
+        else if (!step_plainly(q)) return OPEN;
+        q->steps++;
+        if (q->s.n > DIM) end = INSIDE;
+        else if (end == OPEN && g->early) end = judge(q, g);
+        if (end != OPEN) {
+            raise(q, v, last->w);
+            return end;
+        }
+        if (q->steps >= g->max_steps) return OPEN;
+        if (!ask_on(&q->d, q->v, spare(&q->s))) return FAULT;
+    }
+}
+
+/* ---- telling ---- */
+
+/* The upper digits of x, which is within that size, a power of two: whole multiples of 2^-GRID of it. A sum of DIM
+ * products of such multiples, each row of a map within its size, is exact. */
+#define GRID (MANTISSA / 2)
+static inline real upper_digits(real x, real size)
+{
+    real big = size * (real)((bits)3 << (MANTISSA - GRID - 1));
+    return (x + big) - big;
+}
+
+/* A power of two above x. */
+static inline real above(real x) { return 2 / leveler(x); }
+
+/* m (x + low), x times its grain: a part without rounding, and the rest. */
+static inline void place_in_parts(const body *k, vec x, vec low, vec *upper, vec *rest)
+{
+    *upper = x;
+    *rest = low;
+    if (!k->posed) return;
+    real of_map = above(k->norm), of_point = above(k->reach * k->grain);
+    vec x_up;
+    EACH(x_up.c[i] = upper_digits(x.c[i], of_point));
+    vec x_rest = add(sub(x, x_up), low);
+    for (int row = 0; row < DIM; row++) {
+        vec m = load(k->m + DIM * row), up;
+        EACH(up.c[i] = upper_digits(m.c[i], of_map));
+        upper->c[row] = dot(up, x_up);
+        rest->c[row] = dot(up, x_rest) + dot(sub(m, up), x);
+    }
+}
+
+/* Where the pair of points is that the weights single out, in the sets, times their grain, and what of that rounds
+ * away; and the corner of the difference that they make. */
+typedef struct closest {
+    vec x, x_low, y, y_low, w;
+} closest;
+
+static inline closest pair_of(const search *q, const real weight[DIM + 1])
+{
+    const difference *d = &q->d;
+    closest p;
+    p.x = fine_blend(&q->s, weight, offsetof(vertex, x), d->a.grain, &p.x_low);
+    p.y = fine_blend(&q->s, weight, offsetof(vertex, y), d->b.grain, &p.y_low);
+    p.w = sub(d->a.posed ? map(d->a.m, p.x) : p.x, add(d->b.posed ? map(d->b.m, p.y) : p.y, d->c));
+    return p;
+}
+
+/* The corner in the spare slot by itself. */
+static inline closest last_of(const search *q)
+{
+    const vertex *last = corner(&q->s, q->s.n);
+    return (closest){.x = mul(last->x, q->d.a.grain), .y = mul(last->y, q->d.b.grain), .w = last->w};
+}
+
+/* What rounding took from its corner. */
+static inline vec lost_of_pair(const difference *d, const closest *p)
+{
+    vec a, a_rest, b, b_rest, low;
+    place_in_parts(&d->a, p->x, p->x_low, &a, &a_rest);
+    place_in_parts(&d->b, p->y, p->y_low, &b, &b_rest);
+    for (int i = 0; i < DIM; i++) {
+        twin t = sum_of(a.c[i], -b.c[i]), s = sum_of(t.high, -d->c.c[i]);
+        low.c[i] = (s.high - p->w.c[i]) + ((s.low + t.low) + (a_rest.c[i] - b_rest.c[i] - d->c_low.c[i]));
+    }
+    return low;
+}
+
+/* The corner in the spare slot looked no lower along v than the pair, but it is, without the roundings of either. */
+static int is_passed_over(const search *q, const closest *p, vec low)
+{
+    closest c = last_of(q);
+    real gap = dot(q->v, add(sub(p->w, c.w), sub(low, lost_of_pair(&q->d, &c))));
+    return gap > forgiven(q->s.n) * noise_along(q->v, c.w);
+}
+
+/* How long w is, to twice the digits, low being what it lost. */
+static inline twin length_to_twice(vec w, vec low)
+{
+    twin square = {0, 2 * dot(w, low)};
+    for (int i = 0; i < DIM; i++) gather(&square, square_of(w.c[i]));
+    real l = root(square.high);
+    twin back = square_of(l);
+    return (twin){l, ((square.high - back.high) + (square.low - back.low)) / (2 * l)};
+}
+
+/* What the bounds and the pair tell; upper is of the cores. */
+static void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, result *r)
+{
+    bracket(r, &q->d, q->lower, upper, a, b);
+    place_points(r, q, p->x, p->y, p->w, a, b, 0);
+    store(r->normal, q->normal);
+    r->steps = q->steps;
+    r->supports = q->d.calls;
+    r->reserved = 0;
+}
+
+/* The walk came so far with a gap that rounding does not blur, and this is a pair as near as v. */
+static inline int is_evident(const search *q, const goal *g, enum end end, const closest *p, real upper)
+{
+    real doubt = q->d.doubt, width = upper - q->lower;
+    if (end == WITHIN) return upper < g->within;
+    if (!(q->lower > g->radius + 32 * doubt + 16 * UNIT * g->radius)) return 0;
+    if (end == CLOSE) return width <= asked_of(g, upper);
+    return end == BEYOND || (end == STILL && peak(sub(p->w, q->v)) <= 8 * UNIT && width <= 4 * doubt);
+}
+
+/* The normal along the pair, where that proves as much as any: as good as the pair is, where the direction of the best
+ * bound is only as good as that bound. */
+static void point_along(search *q, vec way)
+{
+    vertex p;
+    vec normal = q->normal;
+    real lower = q->lower;
+    q->lower = -REAL_MAX;
+    if (ask_on(&q->d, way, &p)) raise(q, way, p.w);
+    if (!(q->lower >= lower - 8 * UNIT * lower)) q->normal = normal;
+    q->lower = lower;
+}
+
+/* The distance, where the walk has found it. 0: it is no more than rounding blurs, or the weights are not good enough.
+ */
+static int tell_distance(search *q, const shape *a, const shape *b, const goal *g, enum end end, result *r)
+{
+    real weight[DIM + 1];
+    if (end == OPEN || end == INSIDE || end == FAULT) return 0;
+    if (end == BEYOND && q->s.n == 0) step_plainly(q);
+    weigh(&q->s, weight);
+    closest p = pair_of(q, weight);
+    real upper = length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
+    if (!is_evident(q, g, end, &p, upper)) return 0;
+    vec low = lost_of_pair(&q->d, &p);
+    if (end == STILL && !q->repeated && is_passed_over(q, &p, low)) return 0;
+    if (end == STILL && g->deep) point_along(q, add(p.w, low));
+    twin l = length_to_twice(p.w, low), value = sum_of(l.high, -g->radius);
+    r->value = (value.high + (value.low + l.low)) * q->d.unscale;
+    spell(q, a, b, upper, &p, r);
+    return 1;
+}
+
+/* Apart, as the corner in the spare slot proves; v, for the next query, is made of the others. */
+static void tell_apart(search *q, const shape *a, const shape *b, result *r)
+{
+    closest p = last_of(q);
+    spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, r);
+    if (!(r->lower > 0) && q->s.n == 0) step_plainly(q);
+    q->pending = q->s.n == 0;
+}
+
+/* The cores overlap, or the radii do. */
+static void tell_overlap(search *q, const shape *a, const shape *b, enum end end, result *r)
+{
+    real weight[DIM + 1];
+    weigh(&q->s, weight);
+    closest p = pair_of(q, weight);
+    real upper = end == INSIDE ? q->d.doubt - q->inside : length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
+    spell(q, a, b, upper, &p, r);
+    if (end == INSIDE && !(peak(p.w) <= 8 * UNIT)) r->upper = 0; /* the pair is none */
+}
+
+/* Whether they meet, where the walk has found it. 0: it has not, or the weights are not good enough, or what is proven
+ * does not survive the way out. */
+static int tell_sign(search *q, const shape *a, const shape *b, enum end end, result *r)
+{
+    r->lower = r->upper = 0;
+    if (end == BEYOND) tell_apart(q, a, b, r);
+    if (end == WITHIN || end == INSIDE) tell_overlap(q, a, b, end, r);
+    return r->lower > 0 || r->upper < 0;
+}
+
+#endif
