@@ -58,16 +58,28 @@ static int is_inside(const search *q, const real weight[DIM + 1], vec off)
     return r;
 }
 
+/* The simplex of corners holds the origin for certain: the cores meet. */
+static int settle_meeting(search *q, const shape *a, const shape *b, real weight[DIM + 1], real *upper)
+{
+    if (!(q->lower <= 0) || !holds_origin(q, a, b, weight)) return 0;
+    q->pending = 0;
+    q->met = q->fine = 1;
+    q->apart = (twin){0, 0};
+    *upper = smaller(*upper, 0);
+    return 1;
+}
+
 /* Bounds the cores' separation from both sides. 0: that does not tell enough; the bounds of q and upper are as they
  * were, its simplex and the weights still are those of corners. */
 static APART int settle_apart(search *q, const shape *a, const shape *b, const goal *g, real weight[DIM + 1],
                               real *upper)
 {
-    for (int i = 0; i < FINE_ROUNDS && q->s.n <= DIM && !vanished(q); i++) {
+    if ((vanished(q) || q->s.n > DIM) && settle_meeting(q, a, b, weight, upper)) return 1;
+    for (int i = 0; i < FINE_ROUNDS && q->s.n <= DIM; i++) {
         depth d = {.q = q, .a = a, .b = b, .g = g};
         vertex c;
         vec low, w = fine_pair(q, weight, &low), v = square_to_edges(q, add(w, low)), n = mul(v, -1 / length(v));
-        if (!(dot(v, v) > UNIT * UNIT / 4)) return 0;
+        if (!(dot(v, v) > UNIT * UNIT * UNIT * UNIT)) return 0;
         real lower = fine_bound(&d, n, &c), high = fine_length(w, low);
         if (is_fine(q, g, lower, high) && (g->sign_only || is_inside(q, weight, sub(add(w, low), v)))) {
             q->lower = lower;

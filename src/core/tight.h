@@ -6,9 +6,9 @@
 #ifndef GJK_CORE_TIGHT_H
 #define GJK_CORE_TIGHT_H
 
-#include "distance.h"
 #include "dyadic.h"
 #include "shapes.h"
+#include "touch.h"
 
 /* GJK_NO_EXACT leaves it out, and with it the stack that it takes. */
 #ifdef GJK_NO_EXACT
@@ -355,13 +355,33 @@ static void take_in(finish *f, vec x, vec y)
     f->w[f->n++] = corner_without_rounding(f, x, y);
 }
 
+/* The simplex of q as it is holds the origin. */
+static void stay(finish *f, const search *q, const real weight[DIM + 1])
+{
+    f->n = q->s.n;
+    for (int i = 0; i < f->n; i++) {
+        f->x[i] = corner(&q->s, i)->x;
+        f->y[i] = corner(&q->s, i)->y;
+        f->weight[i] = dyadic_of(weight[i]);
+    }
+    f->over = nought(0);
+    f->under = dyadic_of(1);
+    f->squared = 0;
+    f->way = no_way();
+}
+
 /* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; OPEN: max_steps are used up; FAULT:
  * numbers were lost. */
 static enum end conclude(finish *f, search *q, const shape *a, const shape *b, int max_steps)
 {
+    real weight[DIM + 1];
     f->a = a;
     f->b = b;
     f->n = f->lost = 0;
+    if (holds_origin(q, a, b, weight)) {
+        stay(f, q, weight);
+        return STILL;
+    }
     for (int i = 0; i < q->s.n; i++) take_in(f, corner(&q->s, i)->x, corner(&q->s, i)->y);
     while (shrink(f)) {
         vec x = f->x[0], y = f->y[0];

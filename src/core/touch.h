@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT */
+/* Whether a simplex of known corners holds the origin, in twins that know how far they may be off. Where coordinates
+ * are such that nothing is rounded off, as those of bodies in a row or on a grid, that is 0, and so contact is proven
+ * without whole numbers; else signs are told unless they are lost in the error. Nothing is told that is not certain.
+ */
+#ifndef GJK_CORE_TOUCH_H
+#define GJK_CORE_TOUCH_H
+
+#include "distance.h"
+
+/* A number known to be no farther than off from high + low, but for the roundings of off, which whoever asks for a sign
+ * has room for. With off 0 it is that sum. */
+typedef struct span {
+    real high, low; /* high is the sum rounded */
+    real off;
+} span;
+
+static inline span span_plus(span a, span b, real sign)
+{
+    twin s = sum_of(a.high, sign * b.high), t = sum_of(a.low, sign * b.low), l = sum_of(s.low, t.high);
+    s = sum_of(s.high, l.high);
+    return (span){s.high, s.low, a.off + b.off + size(t.low + l.low)};
+}
+
+static inline span span_minus(span a) { return (span){-a.high, -a.low, a.off}; }
+
+/* Products that are not as small keep all their digits: their lowest is above TINY. */
+#define SAFE (REAL_MIN / (UNIT * UNIT))
+
+/* Left out is low * low, and lost the roundings of the sums with the lows: 8 UNIT^2 of the product. */
+static inline span span_times(span a, span b)
+{
+    if ((a.high == 0 && a.off == 0) || (b.high == 0 && b.off == 0)) return (span){0, 0, 0};
+    twin p = product_of(a.high, b.high);
+    if (a.low == 0 && b.low == 0 && a.off == 0 && b.off == 0 && size(p.high) > SAFE) return (span){p.high, p.low, 0};
+    twin r = sum_of(p.high, p.low + (a.high * b.low + a.low * b.high));
+    real off = size(a.high) * b.off + size(b.high) * a.off + a.off * b.off;
+    return (span){r.high, r.low, off + 9 * UNIT * UNIT * size(p.high) + 16 * TINY};
+}
+
+/* p q - r s */
+static inline span span_minor(span p, span q, span r, span s)
+{
+    return span_plus(span_times(p, q), span_times(r, s), -1);
+}
+
+enum { BLURRED = 2 };
+
+/* Its sign, if that is certain. */
+static inline int span_sign(span a)
+{
+    if (!(size(a.high) > 2 * a.off)) return a.off == 0 && a.high == 0 ? 0 : BLURRED;
+    return a.high < 0 ? -1 : 1;
+}
+
+typedef struct spans {
+    span c[DIM];
+} spans;
+
+/* Adds sign times the body's point x, which is times its grain. */
+static inline void add_point(spans *sum, const body *k, real sign, vec x)
+{
+    for (int i = 0; i < DIM; i++) {
+        if (!k->posed) sum->c[i] = span_plus(sum->c[i], (span){x.c[i], 0, 0}, sign);
+        for (int j = 0; j < DIM && k->posed; j++) {
+            span p = span_times((span){k->m[DIM * i + j], 0, 0}, (span){x.c[j], 0, 0});
+            if (p.high != 0) sum->c[i] = span_plus(sum->c[i], p, sign);
+        }
+    }
+}
+
+/* y is x times a power of two, and no digit of it was lost to underflow. */
+static inline int is_whole(real x, real y) { return x == 0 ? y == 0 : size(y) >= REAL_MIN; }
+
+/* The map and the way between the positions came to the frame without rounding. */
+static int is_body_whole(const body *k, const shape *s)
+{
+    int r = 1;
+    for (int i = 0; i < DIM * DIM && k->posed && k->size != 0; i++) r &= is_whole(s->pose->m[i], k->m[i]);
+    return r;
+}
+
+static int is_frame_whole(const difference *d, const shape *a, const shape *b)
+{
+    int r = !d->wild || (is_body_whole(&d->a, a) && is_body_whole(&d->b, b));
+    for (int i = 0; i < DIM; i++) {
+        twin c = sum_of(b->pose ? b->pose->p[i] : 0, a->pose ? -a->pose->p[i] : 0);
+        r &= is_whole(c.high, d->c.c[i]) && is_whole(c.low, d->c_low.c[i]);
+    }
+    return r;
+}
+
+/* What corner_of rounds. 0: that can't be told. */
+static int corner_in_spans(const difference *d, const vertex *p, spans *w)
+{
+    vec x = mul(p->x, d->a.grain), y = mul(p->y, d->b.grain);
+    int r = 1;
+    EACH(r &= is_whole(p->x.c[i], x.c[i]) && is_whole(p->y.c[i], y.c[i]));
+    for (int i = 0; i < DIM; i++) w->c[i] = (span){-d->c.c[i], -d->c_low.c[i], 0};
+    add_point(w, &d->a, 1, x);
+    add_point(w, &d->b, -1, y);
+    return r;
+}
+
+/* ---- weights with which the corners add up to the origin, in proportion, of any sign; 0: that there are such is not
+ * certain ---- */
+
+#if DIM == 2
+static span span_cross(const spans *a, const spans *b) { return span_minor(a->c[0], b->c[1], a->c[1], b->c[0]); }
+
+/* Two corners in line with the origin. Of a vector's components the largest tells most. */
+static int weigh_pair(const simplex *s, const spans w[3], span weight[3])
+{
+    vec e = sub(point(s, 1), point(s, 0));
+    int k = size(e.c[0]) > size(e.c[1]) ? 0 : 1;
+    weight[0] = w[1].c[k];
+    weight[1] = span_minus(w[0].c[k]);
+    return span_sign(span_cross(&w[0], &w[1])) == 0;
+}
+
+static int weigh_whole(const spans w[3], span weight[3])
+{
+    for (int i = 0; i < 3; i++) weight[i] = span_cross(&w[(i + 1) % 3], &w[(i + 2) % 3]);
+    return 1;
+}
+#else
+/* Component k of the product across. */
+static span span_cross(const spans *a, const spans *b, int k)
+{
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    return span_minor(a->c[i], b->c[j], a->c[j], b->c[i]);
+}
+
+static spans span_outer(const spans *a, const spans *b)
+{
+    return (spans){{span_cross(a, b, 0), span_cross(a, b, 1), span_cross(a, b, 2)}};
+}
+
+static span span_inner(const spans *a, const spans *b)
+{
+    span r = span_times(a->c[0], b->c[0]);
+    for (int i = 1; i < 3; i++) r = span_plus(r, span_times(a->c[i], b->c[i]), 1);
+    return r;
+}
+
+/* Of a vector's components the largest. */
+static int peak_at(vec v)
+{
+    int k = size(v.c[1]) > size(v.c[0]) ? 1 : 0;
+    return size(v.c[2]) > size(v.c[k]) ? 2 : k;
+}
+
+/* Two corners in line with the origin. */
+static int weigh_pair(const simplex *s, const spans w[4], span weight[4])
+{
+    spans n = span_outer(&w[0], &w[1]);
+    int k = peak_at(sub(point(s, 1), point(s, 0)));
+    weight[0] = w[1].c[k];
+    weight[1] = span_minus(w[0].c[k]);
+    return span_sign(n.c[0]) == 0 && span_sign(n.c[1]) == 0 && span_sign(n.c[2]) == 0;
+}
+
+/* Three in a plane with it, seen along an axis. */
+static int weigh_face(const simplex *s, const spans w[4], span weight[4])
+{
+    spans n = span_outer(&w[0], &w[1]);
+    if (span_sign(span_inner(&n, &w[2])) != 0) return 0;
+    int k = peak_at(cross(edge_to(s, 1), edge_to(s, 2)));
+    weight[0] = span_cross(&w[1], &w[2], k);
+    weight[1] = span_cross(&w[2], &w[0], k);
+    weight[2] = n.c[k];
+    return 1;
+}
+
+static int weigh_whole(const spans w[4], span weight[4])
+{
+    spans m = span_outer(&w[0], &w[1]), n = span_outer(&w[2], &w[3]);
+    weight[0] = span_inner(&n, &w[1]);
+    weight[1] = span_minus(span_inner(&n, &w[0]));
+    weight[2] = span_inner(&m, &w[3]);
+    weight[3] = span_minus(span_inner(&m, &w[2]));
+    return 1;
+}
+#endif
+
+static int weigh_spans(const simplex *s, const spans w[DIM + 1], span weight[DIM + 1])
+{
+    if (s->n == 2) return weigh_pair(s, w, weight);
+#if DIM == 3
+    if (s->n == 3) return weigh_face(s, w, weight);
+#endif
+    if (s->n > DIM) return weigh_whole(w, weight);
+    int r = 1;
+    for (int i = 0; i < DIM; i++) r &= span_sign(w[0].c[i]) == 0;
+    weight[0] = (span){1, 0, 0};
+    return r;
+}
+
+/* The weights are of one sign for certain, and good to all the digits that a point needs. Which of them are not 0. */
+static unsigned same_side(const span r[DIM + 1], int n)
+{
+    real sum = 0;
+    int turn = 0;
+    unsigned mask = 0;
+    for (int i = 0; i < n; i++) sum += size(r[i].high);
+    for (int i = 0; i < n; i++) {
+        int sign = span_sign(r[i]);
+        if (sign == BLURRED || sign * turn < 0 || !(r[i].off <= UNIT / 4 * sum)) return 0;
+        turn = sign == 0 ? turn : sign;
+        mask |= sign == 0 ? 0 : 1u << i;
+    }
+    return mask;
+}
+
+/* Whether the origin is certain to be in the simplex. Then that keeps the corners that carry it, with their weights. */
+static int holds_origin(search *q, const shape *a, const shape *b, real weight[DIM + 1])
+{
+    spans w[DIM + 1];
+    span r[DIM + 1];
+    simplex *s = &q->s;
+    if (s->n <= DIM && q->vv > q->d.doubt * q->d.doubt) return 0;
+    if (!is_frame_whole(&q->d, a, b)) return 0;
+    for (int i = 0; i < s->n; i++)
+        if (!corner_in_spans(&q->d, corner(s, i), &w[i])) return 0;
+    unsigned mask = weigh_spans(s, w, r) ? same_side(r, s->n) : 0;
+    if (mask == 0) return 0;
+    for (int i = 0, n = 0; i < s->n; i++)
+        if (mask >> i & 1) weight[n++] = size(r[i].high);
+    keep(s, mask);
+    normalize(weight, s->n);
+    return 1;
+}
+
+#endif
