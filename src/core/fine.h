@@ -19,29 +19,74 @@ static int is_fine(const search *q, const goal *g, real lower, real upper)
     return told && (g->sign_only || upper - lower <= 2 * UNIT);
 }
 
+/* The corner in that slot to twice the digits: w rounded once, and what that takes away. */
+static void polish(search *q, int slot, vec low[DIM + 1])
+{
+    vertex *p = &q->s.slot[slot];
+    vec lost = lost_of(q, p);
+    for (int i = 0; i < DIM; i++) {
+        twin t = sum_of(p->w.c[i], lost.c[i]);
+        p->w.c[i] = t.high;
+        low[slot].c[i] = t.low;
+    }
+}
+
 /* Takes in a corner farther along the way than the simplex. 0: it is none, or v comes no nearer by it. */
-static int take_corner(search *q, const vertex *c)
+static int take_corner(search *q, const vertex *c, vec low[DIM + 1])
 {
     for (int i = 0; i < q->s.n; i++)
         if (repeats(corner(&q->s, i), c)) return 0;
-    *spare(&q->s) = *c;
-    spare(&q->s)->w = corner_of(&q->d, c->x, c->y);
+    int slot = q->s.at[q->s.n];
+    q->s.slot[slot] = *c;
+    q->s.slot[slot].w = corner_of(&q->d, c->x, c->y);
+    polish(q, slot, low);
     q->steps++;
     q->d.calls += 2;
     return advance(q) && q->s.n <= DIM && !vanished(q);
 }
 
-/* v made square to the simplex, with edges that rounding took nothing from: of a pair that is known to twice the digits
- * as good as it can be spelled. */
-static vec square_to_edges(const search *q, vec v)
+/* Goes on from the corners as they are now, and with c. 0: nothing comes of it. */
+static int come_nearer(search *q, const goal *g, const vertex *c, vec low[DIM + 1], int anew)
+{
+    int before = q->s.n;
+    if (anew) project(q, 1);
+    int taken = q->steps < g->max_steps && take_corner(q, c, low);
+    return taken || q->s.n < before;
+}
+
+static vec low_of(const search *q, const vec low[DIM + 1], int i) { return low[q->s.at[i]]; }
+
+/* The point of A - B that the weights single out, to twice the digits: the heaviest corner, and shares of the ways from
+ * there. It is in A - B: the shares add up to no more than 3/4, as none is above that of the corner they start from. */
+static vec fine_point(const search *q, const vec low[DIM + 1], const real weight[DIM + 1], vec *rest)
+{
+    int from = 0;
+    for (int k = 1; k < q->s.n; k++) from = weight[k] > weight[from] ? k : from;
+    vec r, at = point(&q->s, from), at_low = low_of(q, low, from);
+    for (int i = 0; i < DIM; i++) {
+        twin t = {at.c[i], at_low.c[i]};
+        for (int k = 0; k < q->s.n; k++) {
+            if (k == from) continue;
+            twin e = sum_of(point(&q->s, k).c[i], -at.c[i]);
+            gather(&t, product_of(weight[k], e.high));
+            t.low += weight[k] * (e.low + (low_of(q, low, k).c[i] - at_low.c[i]));
+        }
+        t = sum_of(t.high, t.low);
+        r.c[i] = t.high;
+        rest->c[i] = t.low;
+    }
+    return r;
+}
+
+/* v made square to the simplex, with edges that rounding took nothing from: of a point that is known to twice the
+ * digits as good as it can be spelled. */
+static vec square_to_edges(const search *q, const vec low[DIM + 1], vec v)
 {
     simplex edges = q->s;
     if (q->s.n == 1) return v;
-    vec first = lost_of(q, corner(&q->s, 0));
-    for (int i = 1; i < q->s.n; i++) {
-        const vertex *p = corner(&q->s, i);
-        edges.slot[q->s.at[i]].w = add(sub(p->w, point(&q->s, 0)), sub(lost_of(q, p), first));
-    }
+    for (int i = 1; i < q->s.n; i++)
+        edges.slot[q->s.at[i]].w =
+            add(sub(point(&q->s, i), point(&q->s, 0)), sub(low_of(q, low, i), low_of(q, low, 0)));
     edges.slot[q->s.at[0]].w = axis(0, 0);
     return square_to(&edges, v);
 }
@@ -75,23 +120,26 @@ static APART int settle_apart(search *q, const shape *a, const shape *b, const g
                               real *upper)
 {
     if ((vanished(q) || q->s.n > DIM) && settle_meeting(q, a, b, weight, upper)) return 1;
+    vec low[DIM + 1];
+    for (int i = 0; i < q->s.n; i++) polish(q, q->s.at[i], low);
     for (int i = 0; i < FINE_ROUNDS && q->s.n <= DIM; i++) {
         depth d = {.q = q, .a = a, .b = b, .g = g};
         vertex c;
-        vec low, w = fine_pair(q, weight, &low), v = square_to_edges(q, add(w, low)), n = mul(v, -1 / length(v));
+        vec rest, w = fine_point(q, low, weight, &rest), v = square_to_edges(q, low, add(w, rest));
         if (!(dot(v, v) > UNIT * UNIT * UNIT * UNIT)) return 0;
-        real lower = fine_bound(&d, n, &c), high = fine_length(w, low);
-        if (is_fine(q, g, lower, high) && (g->sign_only || is_inside(q, weight, sub(add(w, low), v)))) {
+        vec n = mul(v, -1 / length(v));
+        real lower = fine_bound(&d, n, &c), high = fine_length(w, rest);
+        if (is_fine(q, g, lower, high) && (g->sign_only || is_inside(q, weight, sub(add(w, rest), v)))) {
             q->lower = lower;
             q->normal = n;
             q->fine = 1;
-            if (!g->sign_only) q->apart = height_to_twice(v, w, low);
+            if (!g->sign_only) q->apart = height_to_twice(v, w, rest);
             *upper = smaller(*upper, high);
             return 1;
         }
-        int taken = q->steps < g->max_steps && take_corner(q, &c);
+        int nearer = come_nearer(q, g, &c, low, i == 0);
         certify(q, weight);
-        if (!taken) return 0;
+        if (!nearer) return 0;
     }
     return 0;
 }
