@@ -31,17 +31,28 @@ static void polish(search *q, int slot, vec low[DIM + 1])
     }
 }
 
+/* Puts a corner that was found, not asked for, where the next one goes. */
+static void put_spare(search *q, const vertex *c, vec low[DIM + 1])
+{
+    q->borrowed &= ~(1u << q->s.at[q->s.n]);
+    *spare(&q->s) = *c;
+    spare(&q->s)->w = corner_of(&q->d, c->x, c->y);
+    polish(q, q->s.at[q->s.n], low);
+}
+
+static void count_step(search *q)
+{
+    q->steps++;
+    q->d.calls += 2;
+}
+
 /* Takes in a corner farther along the way than the simplex. 0: it is none, or v comes no nearer by it. */
 static int take_corner(search *q, const vertex *c, vec low[DIM + 1])
 {
     for (int i = 0; i < q->s.n; i++)
         if (repeats(corner(&q->s, i), c)) return 0;
-    int slot = q->s.at[q->s.n];
-    q->s.slot[slot] = *c;
-    q->s.slot[slot].w = corner_of(&q->d, c->x, c->y);
-    polish(q, slot, low);
-    q->steps++;
-    q->d.calls += 2;
+    put_spare(q, c, low);
+    count_step(q);
     return advance(q) && q->s.n <= DIM && !vanished(q);
 }
 
@@ -103,14 +114,32 @@ static int is_inside(const search *q, const real weight[DIM + 1], vec off)
     return r;
 }
 
-/* The simplex of corners holds the origin for certain: the cores meet. */
-static int settle_meeting(search *q, const shape *a, const shape *b, real weight[DIM + 1], real *upper)
+/* The simplex holds the origin for certain: the cores meet. */
+static void note_meeting(search *q, real *upper)
 {
-    if (!(q->lower <= 0) || !holds_origin(q, a, b, weight)) return 0;
     q->pending = 0;
     q->met = q->fine = 1;
     q->apart = (twin){0, 0};
     *upper = smaller(*upper, 0);
+}
+
+/* Whether a facet and the corner that lies beyond the origin as seen from there hold it. */
+static int settle_beyond(search *q, const vertex *c, vec low[DIM + 1], real weight[DIM + 1], real *upper)
+{
+    simplex *s = &q->s;
+    spans w[DIM + 1];
+    put_spare(q, c, low);
+    s->n++;
+    for (int k = 0; k <= DIM; k++) {
+        vec high = point(s, k), rest = low_of(q, low, k);
+        for (int i = 0; i < DIM; i++) w[k].c[i] = (span){high.c[i], rest.c[i], 256 * UNIT * UNIT};
+    }
+    if (!is_carried(s, w, weight)) {
+        s->n--;
+        return 0;
+    }
+    count_step(q);
+    note_meeting(q, upper);
     return 1;
 }
 
@@ -119,7 +148,10 @@ static int settle_meeting(search *q, const shape *a, const shape *b, real weight
 static APART int settle_apart(search *q, const shape *a, const shape *b, const goal *g, real weight[DIM + 1],
                               real *upper)
 {
-    if ((vanished(q) || q->s.n > DIM) && settle_meeting(q, a, b, weight, upper)) return 1;
+    if ((vanished(q) || q->s.n > DIM) && holds_origin(q, a, b, weight)) {
+        note_meeting(q, upper);
+        return 1;
+    }
     vec low[DIM + 1];
     for (int i = 0; i < q->s.n; i++) polish(q, q->s.at[i], low);
     for (int i = 0; i < FINE_ROUNDS && q->s.n <= DIM; i++) {
@@ -137,6 +169,8 @@ static APART int settle_apart(search *q, const shape *a, const shape *b, const g
             *upper = smaller(*upper, high);
             return 1;
         }
+        int may_hold = q->s.n == DIM && lower < 0 && q->steps < g->max_steps;
+        if (may_hold && settle_beyond(q, &c, low, weight, upper)) return 1;
         int nearer = come_nearer(q, g, &c, low, i == 0);
         certify(q, weight);
         if (!nearer) return 0;

@@ -57,14 +57,26 @@ typedef struct spans {
     span c[DIM];
 } spans;
 
+/* sum + x, of which nothing is known to be off; high need not be the sum rounded then. */
+static inline void span_gather(span *sum, twin x)
+{
+    twin s = sum_of(sum->high, x.high), t = sum_of(sum->low, s.low), l = sum_of(t.high, x.low);
+    *sum = (span){s.high, l.high, sum->off + size(t.low + l.low)};
+}
+
 /* Adds sign times the body's point x, which is times its grain. */
 static inline void add_point(spans *sum, const body *k, real sign, vec x)
 {
+    halves h[DIM];
+    for (int j = 0; j < DIM; j++) h[j] = halves_of(x.c[j]);
     for (int i = 0; i < DIM; i++) {
-        if (!k->posed) sum->c[i] = span_plus(sum->c[i], (span){x.c[i], 0, 0}, sign);
+        if (!k->posed) span_gather(&sum->c[i], (twin){sign * x.c[i], 0});
         for (int j = 0; j < DIM && k->posed; j++) {
-            span p = span_times((span){k->m[DIM * i + j], 0, 0}, (span){x.c[j], 0, 0});
-            if (p.high != 0) sum->c[i] = span_plus(sum->c[i], p, sign);
+            real m = sign * k->m[DIM * i + j];
+            if (m == 0 || x.c[j] == 0) continue;
+            twin p = product_of_halves(m, halves_of(m), x.c[j], h[j]);
+            span_gather(&sum->c[i], p);
+            if (!(size(p.high) > SAFE)) sum->c[i].off += 16 * TINY;
         }
     }
 }
@@ -99,6 +111,11 @@ static int corner_in_spans(const difference *d, const vertex *p, spans *w)
     for (int i = 0; i < DIM; i++) w->c[i] = (span){-d->c.c[i], -d->c_low.c[i], 0};
     add_point(w, &d->a, 1, x);
     add_point(w, &d->b, -1, y);
+    for (int i = 0; i < DIM; i++) {
+        twin t = sum_of(w->c[i].high, w->c[i].low);
+        w->c[i].high = t.high;
+        w->c[i].low = t.low;
+    }
     return r;
 }
 
@@ -212,16 +229,11 @@ static unsigned same_side(const span r[DIM + 1], int n)
     return mask;
 }
 
-/* Whether the origin is certain to be in the simplex. Then that keeps the corners that carry it, with their weights. */
-static int holds_origin(search *q, const shape *a, const shape *b, real weight[DIM + 1])
+/* Whether the origin is certain to be in the simplex of the corners w. Then that keeps the corners that carry it, with
+ * their weights. */
+static int is_carried(simplex *s, const spans w[DIM + 1], real weight[DIM + 1])
 {
-    spans w[DIM + 1];
     span r[DIM + 1];
-    simplex *s = &q->s;
-    if (s->n <= DIM && q->vv > q->d.doubt * q->d.doubt) return 0;
-    if (!is_frame_whole(&q->d, a, b)) return 0;
-    for (int i = 0; i < s->n; i++)
-        if (!corner_in_spans(&q->d, corner(s, i), &w[i])) return 0;
     unsigned mask = weigh_spans(s, w, r) ? same_side(r, s->n) : 0;
     if (mask == 0) return 0;
     for (int i = 0, n = 0; i < s->n; i++)
@@ -229,6 +241,26 @@ static int holds_origin(search *q, const shape *a, const shape *b, real weight[D
     keep(s, mask);
     normalize(weight, s->n);
     return 1;
+}
+
+/* None of its coordinates is known without error: it lies in no plane with others for certain. */
+static int is_blurred(const spans *w)
+{
+    int r = 1;
+    for (int i = 0; i < DIM; i++) r &= w->c[i].off != 0;
+    return r;
+}
+
+/* The same of a search's corners without rounding. */
+static int holds_origin(search *q, const shape *a, const shape *b, real weight[DIM + 1])
+{
+    spans w[DIM + 1];
+    simplex *s = &q->s;
+    if (s->n <= DIM && q->vv > q->d.doubt * q->d.doubt) return 0;
+    if (!is_frame_whole(&q->d, a, b)) return 0;
+    for (int i = 0; i < s->n; i++)
+        if (!corner_in_spans(&q->d, corner(s, i), &w[i]) || (s->n <= DIM && is_blurred(&w[i]))) return 0;
+    return is_carried(s, w, weight);
 }
 
 #endif
