@@ -226,7 +226,17 @@ static polytope copy_of_it(void)
     return p;
 }
 
-static enum growth grow_to(facet *f, const tip *t)
+/* It may have been placed to more digits. */
+static void expect_same_but_for_digits(const facet *f, const facet *was)
+{
+    facet sharp = *was;
+    if (was->rough && !f->rough) {
+        sharpen_facet(&d.p, &sharp);
+    }
+    assert_memory_equal(f, &sharp, sizeof sharp);
+}
+
+static enum growth grow_to(facet *f, tip *t)
 {
     polytope was = copy_of_it();
     facet from = *f;
@@ -245,7 +255,9 @@ static enum growth grow_to(facet *f, const tip *t)
     } else {
         assert_true(d.p.facets == was.facets && d.p.tips == was.tips);
         assert_memory_equal(d.p.tip, was.tip, (size_t)was.tips * sizeof(tip));
-        assert_memory_equal(d.p.facet, was.facet, (size_t)was.facets * sizeof(facet));
+        for (int k = 0; k < d.p.facets; k++) {
+            expect_same_but_for_digits(&d.p.facet[k], &was.facet[k]);
+        }
     }
     return end;
 }
@@ -707,7 +719,7 @@ static void sides_are_told_to_twice_the_digits(void **state)
             put_tip(any_vec(1));
         }
         put_facet(&d.p, v);
-        const facet *f = &d.p.facet[0];
+        facet *f = &d.p.facet[0];
         real off = (any_below(2) ? 1 : -1) * ldexp(1, -down), share = any_between(-1, 1), other = any_between(-1, 1);
         for (int i = 0; i < DIM; i++) {
             quad a = (quad)d.p.tip[0].w.c[i], b = (quad)d.p.tip[1].w.c[i], c = (quad)d.p.tip[DIM - 1].w.c[i];
@@ -734,7 +746,7 @@ static void a_level_facet_goes_where_it_would_be_covered(void **state)
     for (int k = 0; k <= DIM; k++) {
         for (int i = 0; i < DIM; i++) {
             seam s = seam_of(&d.p, k, i);
-            const facet *f = &d.p.facet[s.next];
+            facet *f = &d.p.facet[s.next];
             vec middle = axis(0, 0), on = axis(0, 0);
             for (int j = 0; j < DIM; j++) {
                 vec w = d.p.tip[f->v[j]].w;

@@ -102,10 +102,7 @@ static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
 }
 
 /* In the lowest facet's plane, as far as rounding can tell. */
-static int is_level(const depth *d, const tip *t)
-{
-    return size(height_of(t, d->floor->n) - d->floor->height) <= 32 * UNIT;
-}
+static int is_level(const depth *d, const tip *t) { return size(rough_rise(d->floor, t)) <= 32 * UNIT; }
 
 /* Of what is level the corner least along v: of all known corners, else of the tips. */
 static tip level_tip(const depth *d, vec v)
@@ -116,7 +113,7 @@ static tip level_tip(const depth *d, vec v)
         c.x = corner_aside(&d->q->d.a, d->a, d->floor->n, mul(v, -1));
         c.y = corner_aside(&d->q->d.b, d->b, mul(d->floor->n, -1), v);
         c.w = corner_of(&d->q->d, c.x, c.y);
-        return tip_of(d->q, &c, 0);
+        return tip_of(&c, 0);
     }
     for (int k = 0; k < d->p.tips; k++)
         if (is_level(d, &d->p.tip[k]) && dot(v, d->p.tip[k].w) < dot(v, best.w)) best = d->p.tip[k];
@@ -214,7 +211,7 @@ static int takes_normal(depth *d, const facet *f)
 static void turn_to_normal(depth *d)
 {
     for (int k = 0; k < d->p.facets; k++) {
-        const facet *f = &d->p.facet[k];
+        facet *f = &d->p.facet[k];
         if (dot(f->n, d->q->normal) > dot(d->floor->n, d->q->normal)) d->floor = f;
     }
 }
@@ -223,7 +220,7 @@ static void turn_to_normal(depth *d)
  * rounding, one is the lowest in truth, and that one is right under the origin. */
 static void point_out(depth *d, real weight[DIM + 1])
 {
-    const facet *best = d->floor;
+    facet *best = d->floor;
     if (!takes_normal(d, best) && !d->g->exact) turn_to_normal(d);
     real off = hand_over(d, weight);
     if (!(off > 4 * UNIT)) return;
@@ -232,8 +229,10 @@ static void point_out(depth *d, real weight[DIM + 1])
         return;
     }
     for (int k = 0; k < d->p.facets; k++) {
-        const facet *f = &d->p.facet[k];
-        if (f == best || !(f->height <= best->height + 64 * UNIT) || !takes_normal(d, f)) continue;
+        facet *f = &d->p.facet[k];
+        if (f == best || !(f->height <= best->height + 64 * UNIT)) continue;
+        if (f->rough) sharpen_facet(&d->p, f);
+        if (!takes_normal(d, f)) continue;
         d->floor = f;
         real here = hand_over(d, weight);
         if (!(here < off)) continue;
@@ -258,11 +257,13 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
 {
     const goal *g = d->g;
     d->p.fine = g->exact;
+    d->p.whole = &d->q->d;
     d->p.noise = (d->p.fine ? 32 * UNIT : 4) * UNIT;
     enum end end = first_surface(d);
     int flat = d->p.facets == 0;
     if (end == OPEN && !flat) end = deepen(d);
     if (end == FAULT) return end;
+    if (d->floor && d->floor->rough) sharpen_facet(&d->p, d->floor);
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     prove(d, upper);
     if (g->tight && !d->settled && d->floor && d->q->steps < g->max_steps) {

@@ -23,7 +23,7 @@ typedef struct depth {
     const shape *a, *b;
     const goal *g;
     polytope p;
-    const facet *floor; /* the lowest facet, at the end */
+    facet *floor;       /* the lowest facet, at the end */
     tally dropped;      /* of facets that the surface has but the polytope no longer */
     vec along;          /* the direction asked last, of known corners to all digits, */
     real below;         /*   and the bound from below that it gave */
@@ -32,10 +32,10 @@ typedef struct depth {
     vec normal;         /* that goes with it */
 } depth;
 
-static tip tip_of(const search *q, const vertex *c, int known)
+static tip tip_of(const vertex *c, int known)
 {
     tip t = {c->w, axis(0, 0), c->x, c->y};
-    if (known) t.low = lost_of(q, c);
+    if (known) t.low.c[0] = UNTOLD;
     return t;
 }
 
@@ -47,7 +47,7 @@ static int ask_along(depth *d, vec n, tip *t)
     d->q->steps++;
     if (!ask(&d->q->d, v, &c)) return 0;
     raise(d->q, v, c.w);
-    *t = tip_of(d->q, &c, d->g->exact);
+    *t = tip_of(&c, d->g->exact);
     return 1;
 }
 
@@ -130,7 +130,8 @@ static twin fine_floor(const polytope *p, const facet *f)
 {
     twin least = {REAL_MAX, 0};
     for (int k = 0; k < DIM; k++) {
-        const tip *t = &p->tip[f->v[k]];
+        tip *t = &p->tip[f->v[k]];
+        sharpen_tip(p, t);
         twin h = {0, dot(f->n, t->low)};
         for (int i = 0; i < DIM; i++) gather(&h, product_of(f->n.c[i], t->w.c[i]));
         h = sum_of(h.high, h.low);
@@ -164,7 +165,7 @@ static vec square_to_tips(const polytope *p, vec n)
 {
     vec e[DIM];
     for (int k = 1; k < p->tips; k++) {
-        e[k] = reach_over(&p->tip[0], &p->tip[k]);
+        e[k] = way_to(&p->tip[0], &p->tip[k]);
         for (int j = 1; j < k; j++) e[k] = sub(e[k], mul(e[j], dot(e[k], e[j])));
         e[k] = unit_of(e[k], e[k]);
     }
@@ -207,12 +208,14 @@ static enum end spread_out(depth *d)
     polytope *p = &d->p;
     tip best = p->tip[0];
     real most = 0;
+    for (int k = 0; k < p->tips; k++) sharpen_tip(p, &p->tip[k]);
     for (int i = 0; i < 2 * DIM && !(most > (real)0.125); i++) {
         tip t;
         vec n = way_off(p, i);
         if (!(peak(n) > 0)) continue;
         if (d->q->steps >= d->g->max_steps) return OPEN;
         if (!ask_along(d, n, &t)) return FAULT;
+        sharpen_tip(p, &t);
         real off = rise_over_tips(p, n, &t);
         if (!(off > most)) continue;
         most = off;
@@ -232,8 +235,8 @@ static void take_simplex(depth *d)
 {
     polytope *p = &d->p;
     for (int i = 0; i < d->q->s.n; i++) {
-        tip t = tip_of(d->q, corner(&d->q->s, i), d->g->exact);
-        if (i > 0 && !(length(square_to_tips(p, reach_over(&p->tip[0], &t))) > (real)0x1p-10)) continue;
+        tip t = tip_of(corner(&d->q->s, i), d->g->exact);
+        if (i > 0 && !(length(square_to_tips(p, way_to(&p->tip[0], &t))) > (real)0x1p-10)) continue;
         p->tip[p->tips++] = t;
     }
 }
@@ -288,11 +291,12 @@ static void count_height(const depth *d, const facet *f, tally *t)
 
 /* Counts the solid angle under which the origin sees the facet. One whose side is certain counts for more than 0; one
  * too narrow to tell counts for little, either way. */
-static void count_angle(const depth *d, const facet *f, tally *t)
+static void count_angle(depth *d, facet *f, tally *t)
 {
-    const polytope *p = &d->p;
+    polytope *p = &d->p;
     real far = 0, long_edge = 0; /* or somewhat above */
     enum form form;
+    if (f->rough) sharpen_facet(p, f);
     for (int i = 0; i < DIM; i++) {
         far = larger(spread(p->tip[f->v[i]].w), far);
         long_edge = larger(spread(reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]])), long_edge);
@@ -314,12 +318,12 @@ static int surrounds(const tally *t) { return t->certain > 2 * t->doubtful || (t
 
 /* The same of the polytope and what was dropped. At first the angles of facets that are clear to see count as no more
  * than above 0, which is all that is needed if none is in doubt. */
-static int goes_around(const depth *d)
+static int goes_around(depth *d)
 {
     for (int measured = 0; measured < 2; measured++) {
         tally all = d->dropped;
         for (int k = 0; k < d->p.facets; k++) {
-            const facet *f = &d->p.facet[k];
+            facet *f = &d->p.facet[k];
             if (!measured && f->form == WIDE && f->height > CLEAR) all.proven++;
             else count_angle(d, f, &all);
         }
@@ -357,17 +361,17 @@ static int close_enough(const depth *d, const facet *f, real lower)
 /* Whether anything lies beyond the facet along its n: t, the corner there by rounded heights or, of known corners, by
  * true ones. Beyond a facet of their hull are no tips: what is seen there of these is noise, and taken in again would
  * be seen for ever. */
-static int is_beyond(depth *d, const facet *f, tip *t)
+static int is_beyond(depth *d, facet *f, tip *t)
 {
     vertex c;
-    if (!is_tip_of(&d->p, f, t) && sees(&d->p, f, t) && !is_known(&d->p, t)) return 1;
+    int fresh = is_clear(f, rough_rise(f, t)) || !is_tip_of(&d->p, f, t);
+    if (fresh && sees(&d->p, f, t) && !is_known(&d->p, t)) return 1;
     if (!d->g->exact) return 0;
+    if (f->rough) sharpen_facet(&d->p, f);
     fine_bound(d, f->n, &c);
     c.w = corner_of(&d->q->d, c.x, c.y);
-    *t = tip_of(d->q, &c, 0);
-    if (is_tip_of(&d->p, f, t)) return 0;
-    *t = tip_of(d->q, &c, 1);
-    return sees(&d->p, f, t) && !is_known(&d->p, t);
+    *t = tip_of(&c, 1);
+    return !is_tip_of(&d->p, f, t) && sees(&d->p, f, t) && !is_known(&d->p, t);
 }
 
 /* Takes in the corner beyond the facet, or the facet is done. CLOSE: what lies there is of no account; the bound from

@@ -8,8 +8,7 @@
 #ifndef GJK_CORE_POLYTOPE_H
 #define GJK_CORE_POLYTOPE_H
 
-#include "exact.h"
-#include "simplex.h"
+#include "minkowski.h"
 
 #define FEWEST_TIPS 8
 #define USUAL_TIPS 64
@@ -17,9 +16,12 @@
 
 /* A corner of the polytope. */
 typedef struct tip {
-    vec w, low; /* of the difference, and what rounding took from it, where that is known */
+    vec w, low; /* of the difference, and what rounding took from it, where that can be known; see sharpen_tip */
     vec x, y;   /* of A and of B */
 } tip;
+
+/* In place of what rounding took from a tip, until somebody asks. */
+#define UNTOLD REAL_MAX
 
 typedef struct facet {
     vec n;             /* unit to rounding, outward; of a facet without area any unit vector */
@@ -29,10 +31,12 @@ typedef struct facet {
     signed char done;  /* nothing lies beyond it */
     signed char gone;  /* it makes room for the corner that is being taken in */
     signed char form;
+    signed char rough; /* made of what its tips are by rounding, though more of these can be known */
 } facet;
 
 /* THIN: it has no area to speak of, and its normal is noise. WIDE: it is so large that its normal, by what its corners
- * and its edges have been rounded, is off by less than an eighth of CLEAR. */
+ * and its edges have been rounded, is off by less than an eighth of CLEAR; a rough one so large that as seen from the
+ * origin it is turned the same way without these roundings, if it is higher than CLEAR (docs/bounds.md). */
 enum form { THIN, LEAN, WIDE };
 
 /* What is so far from a wide facet's plane is on that side of it, whichever corner is asked. */
@@ -54,7 +58,8 @@ typedef struct polytope {
     seam *rim; /* of what is gone */
     int tips, facets, rims, most_tips, most_facets;
     real noise;                                                /* what rounding may have put into a tip */
-    int fine;                                                  /* tips are known to twice the digits */
+    int fine;                                                  /* tips can be known to twice the digits */
+    const difference *whole;                                   /*   of this */
     int (*side)(const void *of, const facet *f, const tip *t); /* on which side of the facet t is, without rounding */
     const void *of;                                            /* NULL, both: that is not asked */
     int without_rounding;                                      /* nothing but side tells sides */
@@ -92,28 +97,51 @@ static polytope polytope_in(void *workspace, size_t tips)
     return p;
 }
 
+/* Whether they are the same points of both bodies; w, which follows from these, tells most apart. */
+static inline int is_same(const tip *t, const tip *u)
+{
+    return t->w.c[0] == u->w.c[0] && same(t->x, u->x) && same(t->y, u->y);
+}
+
 static int is_tip_of(const polytope *p, const facet *f, const tip *t)
 {
-    int r = 0;
-    for (int i = 0; i < DIM; i++) r |= same(p->tip[f->v[i]].x, t->x) & same(p->tip[f->v[i]].y, t->y);
-    return r;
+    for (int i = 0; i < DIM; i++)
+        if (is_same(&p->tip[f->v[i]], t)) return 1;
+    return 0;
 }
 
 /* Whether that corner was taken in before, and not dropped to make room. */
 static int is_known(const polytope *p, const tip *t)
 {
-    int r = 0;
-    for (int i = 0; i < p->tips && !r; i++) r = same(p->tip[i].x, t->x) && same(p->tip[i].y, t->y);
-    return r;
+    for (int i = 0; i < p->tips; i++)
+        if (is_same(&p->tip[i], t)) return 1;
+    return 0;
 }
 
-/* From one tip to another, to all digits that are known. */
+/* Works out what rounding took from the tip, if that has not been asked before. */
+static inline void sharpen_tip(const polytope *p, tip *t)
+{
+    const difference *d = p->whole;
+    const vec none = axis(0, 0);
+    if (t->low.c[0] == UNTOLD) t->low = remainder_of(d, mul(t->x, d->a.grain), none, mul(t->y, d->b.grain), none, t->w);
+}
+
+/* From one tip to another, as they are rounded. */
+static inline vec way_to(const tip *from, const tip *to) { return sub(to->w, from->w); }
+
+/* The same to all digits that are known: of sharp tips. */
 static inline vec reach_over(const tip *from, const tip *to)
 {
     return add(sub(to->w, from->w), sub(to->low, from->low));
 }
 
 static inline real height_of(const tip *t, vec n) { return dot(n, t->w) + dot(n, t->low); }
+
+/* How far the tip, as rounded, lies beyond the facet's lowest corner. */
+static inline real rough_rise(const facet *f, const tip *t) { return dot(f->n, t->w) - f->height; }
+
+/* Whether that alone tells on which side of the facet the tip is. */
+static inline int is_clear(const facet *f, real above) { return f->form == WIDE && size(above) > CLEAR; }
 
 /* Of none at all: along the first axis. */
 static vec unit_of(vec n, vec otherwise)
@@ -241,6 +269,46 @@ static void straighten(const polytope *p, facet *f)
 }
 #endif
 
+/* Places the facet by all that is known of its tips. */
+static APART void sharpen_facet(polytope *p, facet *f)
+{
+    enum form form;
+    for (int i = 0; i < DIM; i++) sharpen_tip(p, &p->tip[f->v[i]]);
+    f->n = unit_of(outward(p, f, &form), p->tip[f->v[0]].w);
+    f->form = (signed char)form;
+    f->height = least_height(p, f, f->n);
+    f->rough = 0;
+#if DIM == 3
+    if (form == THIN) straighten(p, f);
+#endif
+}
+
+/* Places the facet by what its tips are by rounding, if it is WIDE for that. */
+static inline int place_roughly(const polytope *p, facet *f)
+{
+    const real noise = p->fine ? 32 * UNIT : p->noise;
+    const real tall = noise * ((real)0x1p-12 / UNIT);
+    const vec w0 = p->tip[f->v[0]].w, w1 = p->tip[f->v[1]].w;
+#if DIM == 2
+    vec e = sub(w1, w0), n = {{e.c[1], -e.c[0]}};
+    real nn = dot(e, e);
+    if (!(nn > tall * tall)) return 0;
+    f->n = mul(n, 1 / root(nn));
+    f->height = smaller(dot(f->n, w1), dot(f->n, w0));
+#else
+    const vec w2 = p->tip[f->v[2]].w, e0 = sub(w1, w0), e1 = sub(w2, w1), e2 = sub(w0, w2);
+    const real s0 = dot(e0, e0), s1 = dot(e1, e1), s2 = dot(e2, e2), longest = larger(s0, larger(s1, s2));
+    vec n = s0 == longest ? cross(e1, e2) : s1 == longest ? cross(e2, e0) : cross(e0, e1);
+    real nn = dot(n, n);
+    if (!(4096 * nn > longest * longest && nn > tall * tall * longest)) return 0;
+    f->n = mul(n, 1 / root(nn));
+    f->height = smaller(dot(f->n, w2), smaller(dot(f->n, w1), dot(f->n, w0)));
+#endif
+    f->form = WIDE;
+    f->rough = p->fine != 0;
+    return 1;
+}
+
 /* Takes the facet between these tips in. Returns its height. */
 static real put_facet(polytope *p, const int16_t v[DIM])
 {
@@ -250,13 +318,7 @@ static real put_facet(polytope *p, const int16_t v[DIM])
         f->next[i] = ALONE;
     }
     f->done = f->gone = 0;
-    enum form form;
-    f->n = unit_of(outward(p, f, &form), p->tip[v[0]].w);
-    f->form = (signed char)form;
-    f->height = least_height(p, f, f->n);
-#if DIM == 3
-    if (form == THIN) straighten(p, f);
-#endif
+    if (!place_roughly(p, f)) sharpen_facet(p, f);
     return f->height;
 }
 
@@ -281,12 +343,34 @@ static int nearest_corner(const polytope *p, const facet *f, const tip *t)
     return k;
 }
 
+/* Whether a and b have the same sum as c and d, seen without rounding: coordinate by coordinate they are the same two
+ * numbers. */
+static inline int have_one_sum(vec a, vec b, vec c, vec d)
+{
+    int r = 1;
+    EACH(r &= ((a.c[i] == c.c[i]) & (b.c[i] == d.c[i])) | ((a.c[i] == d.c[i]) & (b.c[i] == c.c[i])));
+    return r;
+}
+
+/* Whether t makes the facet a parallelogram, in whose plane it is then: such are faces of boxes, and what an edge of
+ * either body makes of the other's. */
+static int is_fourth(const polytope *p, const facet *f, const tip *t)
+{
+    for (int i = 0; i < DIM && DIM == 3; i++) {
+        const tip *a = &p->tip[f->v[i]], *b = &p->tip[f->v[(i + 1) % DIM]], *c = &p->tip[f->v[(i + 2) % DIM]];
+        if (have_one_sum(t->x, a->x, b->x, c->x) && have_one_sum(t->y, a->y, b->y, c->y)) return 1;
+    }
+    return 0;
+}
+
 /* How far t lies beyond the facet, or below 0 behind it; 0 where rounding leaves that open. From the nearest corner,
  * where the normal's own roundings count least; a thin facet has no plane, it is below t where all its corners are. */
-static real rise_over(const polytope *p, const facet *f, const tip *t)
+static real rise_over(polytope *p, facet *f, tip *t)
 {
-    real above = height_of(t, f->n) - f->height;
-    if (f->form == WIDE && size(above) > CLEAR) return above;
+    real above = rough_rise(f, t);
+    if (is_clear(f, above)) return above;
+    if (f->rough) sharpen_facet(p, f);
+    sharpen_tip(p, t);
     if (f->form != THIN) return rise(p, f->v[nearest_corner(p, f, t)], t, f->n);
     real most = -REAL_MAX, least = REAL_MAX;
     for (int i = 0; i < DIM; i++) {
@@ -297,7 +381,11 @@ static real rise_over(const polytope *p, const facet *f, const tip *t)
     return least > 0 ? least : most < 0 ? most : 0;
 }
 
-static int sees(const polytope *p, const facet *f, const tip *t) { return rise_over(p, f, t) > 0; }
+static int sees(polytope *p, facet *f, tip *t)
+{
+    real above = rough_rise(f, t);
+    return is_clear(f, above) ? above > 0 : !(p->fine && is_fourth(p, f, t)) && rise_over(p, f, t) > 0;
+}
 
 /* On which side of the facet's plane t is, to twice the digits: of the sign. */
 static real fine_side(const polytope *p, const facet *f, const tip *t)
@@ -343,7 +431,7 @@ static void take_out(polytope *p, int at, int *looked)
     p->facet[at].gone = 1;
     for (int i = 0; i < DIM; i++) {
         seam s = seam_of(p, at, i);
-        int k = other_side(p, s);
+        int k = s.next != WALL && p->facet[s.next].gone ? other_side(p, s) : p->rims;
         if (k == p->rims) {
             p->rim[p->rims++] = s;
             continue;
@@ -361,18 +449,21 @@ static int is_on_side(const polytope *p, const facet *f, seam s, const tip *t)
 {
 #if DIM == 2
     const tip *at = &p->tip[s.v[0]], *end = &p->tip[f->v[f->v[0] == s.v[0]]];
-    return dot(reach_over(at, end), reach_over(at, t)) > 0;
+    return dot(way_to(at, end), way_to(at, t)) > 0;
 #else
     const tip *from = &p->tip[s.v[1]], *to = &p->tip[s.v[0]];
-    return dot(cross(f->n, reach_over(from, to)), reach_over(from, t)) > 0;
+    return dot(cross(f->n, way_to(from, to)), way_to(from, t)) > 0;
 #endif
 }
 
 /* On which side of the facet t is, as well as can be told: of the sign. The facet's normal is off by some roundings,
  * which count by how far t is from the nearest corner. */
-static real side_of(const polytope *p, const facet *f, const tip *t)
+static real side_of(polytope *p, facet *f, tip *t)
 {
-    real r = rise_over(p, f, t);
+    real r = rough_rise(f, t);
+    if (is_clear(f, r)) return r;
+    if (p->fine && is_fourth(p, f, t)) return 0;
+    r = rise_over(p, f, t);
     if (!p->fine || size(r) > CLEAR) return r;
     vec e = reach_over(&p->tip[f->v[nearest_corner(p, f, t)]], t);
     if (!(size(r) > 16 * UNIT * spread(e))) r = fine_side(p, f, t);
@@ -381,7 +472,7 @@ static real side_of(const polytope *p, const facet *f, const tip *t)
 
 /* Whether the facet next to the rim goes too: t sees it; or, as far as can be told, is in its plane, and a new facet
  * from the seam to t would lie on it, folded back. */
-static int goes_too(const polytope *p, const facet *f, seam s, const tip *t)
+static int goes_too(polytope *p, facet *f, seam s, tip *t)
 {
     real r = side_of(p, f, t);
     return r > 0 || (r == 0 && is_on_side(p, f, s, t));
@@ -397,19 +488,23 @@ static real put_facet_on(polytope *p, seam r, int t)
     return put_facet(p, v);
 }
 
-/* Marks what t takes the place of: the facet, and around it all that go too. Their rim is what new facets start from:
- * each facet after the first adds one seam to it at most, so that there is room. */
-static void clear_way(polytope *p, int from, const tip *t)
+/* Marks what t takes the place of: the facet, and around it all that go too. Returns how many. Their rim is what new
+ * facets start from: each facet after the first adds one seam to it at most, so that there is room. */
+static int clear_way(polytope *p, int from, tip *t)
 {
-    int looked = 0;
+    int looked = 0, outs = 1;
     p->rims = 0;
     take_out(p, from, &looked);
     while (looked < p->rims && p->rims + DIM <= p->most_facets) {
         seam s = p->rim[looked];
-        if (s.next != WALL && !p->facet[s.next].gone && goes_too(p, &p->facet[s.next], s, t))
+        if (s.next != WALL && !p->facet[s.next].gone && goes_too(p, &p->facet[s.next], s, t)) {
             take_out(p, s.next, &looked);
-        else looked++;
+            outs++;
+        } else {
+            looked++;
+        }
     }
+    return outs;
 }
 
 /* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
@@ -449,8 +544,9 @@ static void join_all(polytope *p)
     for (int a = 0; a < p->rims; a++)
         for (int b = 0; b < p->rims; b++) {
             seam from = p->rim[a], to = p->rim[b];
+            if (!comes_before(from, to)) continue;
             int16_t *next = &p->facet[from.of].next[seam_there(from)], *back = &p->facet[to.of].next[seam_back(to)];
-            if (*back != ALONE || !comes_before(from, to)) continue;
+            if (*back != ALONE) continue;
             *next = to.of;
             *back = from.of;
             break;
@@ -468,55 +564,71 @@ static void sweep(polytope *p)
     }
 }
 
-/* The facets on the rim, which are the last so far, take the places of those that are gone, and are tied in. Seams of
- * the rim know them from then on. */
-static void settle_in(polytope *p, int before)
+/* The facets on the rim, which are the last so far, take the places of those that are gone, so many, and are tied in.
+ * Seams of the rim know them from then on. */
+static void settle_in(polytope *p, int before, int outs)
 {
-    int hole = 0, end = before;
+    int end = before;
     for (int k = 0; k < p->rims; k++) {
-        while (hole < before && !p->facet[hole].gone) hole++;
-        int at = hole < before ? hole : end++;
+        int at = p->rim[k].of;
+        if (p->facet[at].gone) outs--;
+        else at = end++;
         p->facet[at] = p->facet[before + k];
         tie_to_rim(p, at, p->rim[k]);
         p->rim[k].of = (int16_t)at;
     }
     p->facets = end;
     join_all(p);
-    while (hole < before && !p->facet[hole].gone) hole++;
-    if (hole < before) sweep(p);
+    if (outs > 0) sweep(p); /* no seam of those was on the rim */
+}
+
+/* Places the facets from there on by all that is known. Returns how low they are. */
+static real sharpen_new(polytope *p, int from)
+{
+    real least = REAL_MAX;
+    for (int k = from; k < p->facets; k++) {
+        if (p->facet[k].rough) sharpen_facet(p, &p->facet[k]);
+        least = smaller(p->facet[k].height, least);
+    }
+    return least;
 }
 
 enum growth { GROWN, FULL, LOWERED };
 
 /* Takes in a corner that lies beyond the facet, the lowest. FULL: there is no room for it. LOWERED: a surface that goes
  * around the origin never gets lower by what lies beyond it, so this is noise. Either way nothing has changed. */
-static enum growth grow(polytope *p, facet *f, const tip *t)
+static enum growth grow(polytope *p, facet *f, tip *t)
 {
     int before = p->facets;
     real height = f->height, least = REAL_MAX;
     if (p->tips == p->most_tips || before + 2 > p->most_facets) return FULL;
-    clear_way(p, (int)(f - p->facet), t);
+    int outs = clear_way(p, (int)(f - p->facet), t);
     enum growth end = p->rims == 0 ? LOWERED : before + p->rims > p->most_facets ? FULL : GROWN;
     p->tip[p->tips] = *t;
     for (int k = 0; k < p->rims && end == GROWN; k++) least = smaller(put_facet_on(p, p->rim[k], p->tips), least);
-    if (end == GROWN && !p->without_rounding && height > 0 && !(least >= height - 64 * UNIT)) end = LOWERED;
+    if (end == GROWN && !p->without_rounding && height > 0 && !(least >= height - 64 * UNIT) &&
+        !(sharpen_new(p, before) >= height - 64 * UNIT))
+        end = LOWERED;
     if (end != GROWN) {
         p->facets = before;
         for (int k = 0; k < p->facets; k++) p->facet[k].gone = 0;
         return end;
     }
     p->tips++;
-    settle_in(p, before);
+    settle_in(p, before, outs);
     return GROWN;
 }
 
 static facet *lowest(const polytope *p)
 {
-    facet *f = &p->facet[0];
-    for (int i = 1; i < p->facets; i++)
-        if (p->facet[i].height < f->height || (p->facet[i].height == f->height && p->facet[i].done > f->done))
-            f = &p->facet[i];
-    return f;
+    facet *low = p->facet;
+    real least = low->height;
+    for (facet *f = low + 1; f < p->facet + p->facets; f++) {
+        if (f->height > least || (f->height == least && f->done <= low->done)) continue;
+        least = f->height;
+        low = f;
+    }
+    return low;
 }
 
 /* Marks the facets above some height that have no corner in common with one below, nor with the lowest. */
@@ -558,8 +670,8 @@ static void forget_tips(polytope *p)
         for (int i = 0; i < DIM; i++) p->facet[k].v[i] = place[p->facet[k].v[i]].v[0];
 }
 
-/* The first DIM + 1 tips, as a surface. turn: above 0 where they turn counterclockwise. */
-static void put_simplex(polytope *p, real turn)
+/* The next facet of the first DIM + 1 tips' surface. turn: whether they turn counterclockwise. */
+static void put_side(polytope *p, int turn)
 {
 #if DIM == 2
     static const int16_t side[3][2] = {{0, 1}, {1, 2}, {2, 0}}, across[3][2] = {{2, 1}, {0, 2}, {1, 0}};
@@ -567,22 +679,21 @@ static void put_simplex(polytope *p, real turn)
     static const int16_t side[4][3] = {{2, 1, 0}, {1, 3, 0}, {3, 2, 0}, {2, 3, 1}};
     static const int16_t across[4][3] = {{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {2, 1, 0}};
 #endif
-    for (int k = 0; k <= DIM; k++) {
-        int16_t v[DIM];
-        for (int i = 0; i < DIM; i++) v[i] = side[k][turn > 0 || i > 1 ? i : 1 - i];
-        put_facet(p, v);
-        for (int i = 0; i < DIM; i++) /* turned over, the seams are passed the other way around */
-            p->facet[k].next[i] = across[k][turn > 0 ? i : DIM == 2 ? 1 - i : (DIM - i) % DIM];
-    }
+    int16_t v[DIM];
+    int k = p->facets;
+    for (int i = 0; i < DIM; i++) v[i] = side[k][turn || i > 1 ? i : 1 - i];
+    put_facet(p, v);
+    for (int i = 0; i < DIM; i++) /* turned over, the seams are passed the other way around */
+        p->facet[k].next[i] = across[k][turn ? i : DIM == 2 ? 1 - i : (DIM - i) % DIM];
 }
 
-/* The same, whichever way they turn: so that the last of them is not beyond the first facet. */
+/* That surface, turned so that the last of the tips is not beyond the first facet. */
 static void put_first(polytope *p)
 {
-    put_simplex(p, 1);
-    if (!(side_of(p, &p->facet[0], &p->tip[DIM]) > 0)) return;
-    p->facets = 0;
-    put_simplex(p, -1);
+    put_side(p, 1);
+    int turn = !(side_of(p, &p->facet[0], &p->tip[DIM]) > 0);
+    p->facets = turn;
+    while (p->facets <= DIM) put_side(p, turn);
 }
 
 #endif

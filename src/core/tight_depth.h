@@ -54,7 +54,7 @@ static int take_step(finish *f, depth *d, tip *t)
     d->q->d.calls += 2;
     dyadic up = climb(f, d->a, &f->way, &c.x), down = climb(f, d->b, &back, &c.y), gain = plus(&up, &down, 1);
     c.w = corner_of(&d->q->d, c.x, c.y);
-    *t = tip_of(d->q, &c, 1);
+    *t = tip_of(&c, 1);
     return side(f, &gain) > 0;
 }
 
