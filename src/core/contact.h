@@ -90,13 +90,13 @@ static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
         return box_corner(s, up);
     }
     real top = -REAL_MAX, most = -REAL_MAX;
-    size_t count = count_corners(s);
-    for (size_t i = 0; i < count; i++) top = larger(dot(mul(nth_corner(s, i), k->grain), up), top);
-    for (size_t i = 0; i < count; i++) {
-        vec c = mul(nth_corner(s, i), k->grain);
+    const listing l = corners_of(s);
+    for (size_t i = 0; i < l.count; i++) top = larger(dot(mul(nth_of(&l, i), k->grain), up), top);
+    for (size_t i = 0; i < l.count; i++) {
+        vec c = mul(nth_of(&l, i), k->grain);
         if (!(dot(c, up) >= top - 16 * UNIT) || !(dot(c, out) > most)) continue;
         most = dot(c, out);
-        best = nth_corner(s, i);
+        best = nth_of(&l, i);
     }
     return best;
 }

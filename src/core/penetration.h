@@ -73,33 +73,46 @@ static twin height_along(const twin g[DIM], vec c)
     return sum_of(h.high, h.low);
 }
 
+/* A set's corners, but a box's, one after the other. */
+typedef struct listing {
+    const real *v;
+    size_t count, step;
+} listing;
+
+static listing corners_of(const shape *s)
+{
+    static const real none[DIM];
+    const points *p = s->data;
+    if (s->support == pub(support_points)) return (listing){p->v, p->count, stride_of(p)};
+    return (listing){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM};
+}
+
+static inline vec nth_of(const listing *l, size_t n) { return load(l->v + n * l->step); }
+
 /* Of the body's corners the one farthest along n, and its height from the body's own origin. Rounded heights tell which
- * it can be. */
+ * it can't be. */
 static twin farthest_corner(const body *k, const shape *s, vec n, vec *x)
 {
     twin g[DIM], most = {-REAL_MAX, 0};
     vec rough;
-    real top = -REAL_MAX, far = 0;
     turned(k, n, g);
     for (int j = 0; j < DIM; j++) rough.c[j] = g[j].high + g[j].low;
     if (is_box(s)) {
         *x = box_corner(s, rough);
         return height_along(g, mul(*x, k->grain));
     }
-    size_t count = count_corners(s);
-    for (size_t i = 0; i < count; i++) {
-        vec c = mul(nth_corner(s, i), k->grain);
-        top = larger(dot(c, rough), top);
-        far = larger(peak(c), far);
-    }
-    top -= 16 * UNIT * far * spread(rough);
-    for (size_t i = 0; i < count; i++) {
-        vec c = mul(nth_corner(s, i), k->grain);
-        if (dot(c, rough) < top) continue;
+    const listing l = corners_of(s);
+    const real margin = 16 * UNIT * (k->reach * k->grain) * spread(rough);
+    real least = -REAL_MAX;
+    for (size_t i = 0; i < l.count; i++) {
+        vec c = mul(nth_of(&l, i), k->grain);
+        real about = dot(c, rough);
+        if (about < least) continue;
+        least = larger(about - margin, least);
         twin h = height_along(g, c);
         if (!(h.high > most.high || (h.high == most.high && h.low > most.low))) continue;
         most = h;
-        *x = nth_corner(s, i);
+        *x = nth_of(&l, i);
     }
     return most;
 }
