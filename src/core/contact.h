@@ -147,9 +147,10 @@ static real hand_over(const depth *d, real weight[DIM + 1])
     vec foot = foot_of(d), v;
     simplex *s = &q->s;
     start_over(q);
-    take_tip(s, &d->p.tip[d->floor->v[0]], foot);
-    v = point(s, 0);
-    for (int i = 0; i < USUAL_TIPS && dot(v, v) > UNIT * UNIT / 4; i++) {
+    for (int i = 0; i < DIM; i++) take_tip(s, &d->p.tip[d->floor->v[i]], foot);
+    int under = part(s, (1u << DIM) - 1, 0, &v, weight);
+    if (!under) v = nearest_of_all(s, 0, 0, 0);
+    for (int i = 0; i < USUAL_TIPS && dot(v, v) > (under ? 16 : (real)0.25) * (UNIT * UNIT); i++) {
         tip t = level_tip(d, v);
         simplex before = *s;
         if (!is_level(d, &t) || !(dot(v, sub(t.w, foot)) < dot(v, v))) break;
