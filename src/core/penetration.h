@@ -350,7 +350,9 @@ static int goes_around(depth *d)
 static int bound(depth *d, real *upper)
 {
     tally all = d->dropped;
-    for (int k = 0; k < d->p.facets; k++) count_height(d, &d->p.facet[k], &all);
+    if (d->floor) count_height(d, d->floor, &all);
+    for (int k = 0; k < d->p.facets; k++)
+        if (&d->p.facet[k] != d->floor) count_height(d, &d->p.facet[k], &all);
     int proven = all.facets > 0 && (d->settled || all.least > 0) && goes_around(d);
     if (proven && all.least > 0) *upper = smaller(*upper, -all.least);
     if (d->g->exact) bound_along(d, d->floor ? d->floor->n : d->q->normal);
