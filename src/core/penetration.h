@@ -370,7 +370,8 @@ static int close_enough(const depth *d, const facet *f, real lower)
     if (!g->exact && upper - lower <= 3 * doubt + d->q->d.slack) return 1;
     if (!(g->abs_tol > 0) && !(g->rel_tol > 0)) return 0;
     real asked = g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
-    return f->height > 0 && upper - lower <= asked; /* else the facet bounds nothing from above */
+    /* a facet that rounding may take below the origin bounds nothing from above */
+    return f->height > (g->exact ? 0 : doubt) + 64 * UNIT && upper - lower <= asked;
 }
 
 /* Whether anything lies beyond the facet along its n: t, the corner there by rounded heights or, of known corners, by
