@@ -86,8 +86,8 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         if (end == STILL && !q->repeated && !g->sign_only) q->stuck = is_lower(q);
         if (end == OPEN && q->steps < g->max_steps) end = search_on(q, &here, upper, weight);
         else *upper = certify(q, weight);
-        real inside = walked == INSIDE ? q->inside : end == INSIDE ? room(&q->s) : 0;
-        if (inside > q->d.doubt) *upper = q->d.doubt - inside;
+        if (walked != INSIDE && end == INSIDE) q->inside = room(&q->s);
+        if (end == INSIDE && q->inside > q->d.doubt) *upper = q->d.doubt - q->inside;
         if (end != FAULT && q->lower <= *upper) return end;
     }
     for (;;) {
@@ -102,7 +102,8 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
             }
         }
         if (end != FAULT) {
-            if (end == INSIDE && room(&q->s) > q->d.doubt) *upper = q->d.doubt - room(&q->s);
+            if (end == INSIDE) q->inside = room(&q->s);
+            if (end == INSIDE && q->inside > q->d.doubt) *upper = q->d.doubt - q->inside;
             if (q->lower <= *upper && settled(q) &&
                 !(warm && (end == STILL || end == INSIDE) && coarse(q, *upper) && !g->exact))
                 break;
@@ -281,13 +282,19 @@ static int may_meet(const search *q, const goal *g, enum end further)
     return !(q->lower > 0) && !(g->exact && further == STILL && !q->met);
 }
 
+/* Whether the depth is asked for, of known corners that may meet, before all else: it is the whole answer then. */
+static int is_plumbed(const search *q, const goal *g, int still)
+{
+    return g->deep && still && !(q->lower > 0) && g->exact && !g->tight;
+}
+
 /* How deep: what follows the cores' search, which ended like that. */
 static enum end go_deep(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
                         real weight[], result *r, enum end end)
 {
     int still = end == STILL || end == INSIDE, open = !(q->lower > 0);
     enum end further = FAULT;
-    if (still && open && g->exact && !g->tight) return plumb_and_tell(q, a, b, o, g, upper, weight, r);
+    if (is_plumbed(q, g, still)) return plumb_and_tell(q, a, b, o, g, upper, weight, r);
     if (still && (g->exact || !open)) further = take_further(q, a, b, o, g, upper, weight, r);
     if (may_meet(q, g, further)) return plumb(q, a, b, o, g, &upper, weight, r);
     if (g->exact && further == FAULT) point_out_apart(q, a, b, g, upper, weight, r);
@@ -310,7 +317,7 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     if (end == FAULT || (probed && !settled && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     bracket(r, &q->d, q->lower, upper, a, b);
     if (still && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
-    if (further != STILL) answer(q, a, b, g, upper, weight, r);
+    if (further != STILL && !is_plumbed(q, g, still)) answer(q, a, b, g, upper, weight, r);
     if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
     else if (still && !g->exact) further = take_further(q, a, b, o, g, upper, weight, r);
     if (end == FAULT) return FAULT;
