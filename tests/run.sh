@@ -7,18 +7,9 @@ cd "$(dirname "$0")/.."
 
 say() { printf '\n== %s\n' "$*"; }
 
-missing=
-need() { # PACKAGE COMMAND...: the package is there when the command succeeds
-    package=$1
-    shift
-    "$@" >/dev/null 2>&1 || missing="$missing $package"
-}
+. tests/tools.sh
 links_fuzzers() { echo 'int LLVMFuzzerTestOneInput(void) { return 0; }' | clang -fsanitize=fuzzer,address -x c - -o /dev/null; }
-knows_crates() { # of the edition 2024
-    version=$(cargo --version) && minor=${version#cargo 1.} && [ "${minor%%.*}" -ge 85 ]
-}
 look() {
-    missing=
     need gcc command -v gcc
     need g++ command -v g++
     need make command -v make
@@ -40,19 +31,7 @@ look() {
 }
 
 say 'Looking for the tools'
-look
-if [ -n "$missing" ]; then
-    echo "missing:$missing"
-    if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null; then
-        echo 'install these, or run this as root on Debian'
-        exit 1
-    fi
-    apt-get update -q
-    # shellcheck disable=SC2086 # one word for each package
-    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
-    look
-    [ -z "$missing" ] || { echo "still missing:$missing"; exit 1; }
-fi
+get_tools
 
 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
 CTEST_PARALLEL_LEVEL=$CMAKE_BUILD_PARALLEL_LEVEL

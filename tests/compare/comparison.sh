@@ -5,22 +5,14 @@
 #
 #   sh tests/compare/comparison.sh [PAIRS [ROUNDS [SEED [OUT]]]]     of each class, of timing; default 100, 21, 1, docs
 #
-# Peers are used where they are installed (Debian: libccd-dev libbox2d-dev libfcl-dev libbullet-dev), as their packagers
-# compiled them; Box2D 3, Jolt and parry by way of cargo, compiled as the library is; coal and MuJoCo as pip brings
-# them. Who cannot be had is named as missing. GJK_COMPARE_LIBCCD in the environment, a folder with sources of libccd,
-# has that compiled so, too. Instructions are counted where valgrind is installed. The build stays in build/comparison.
-# Ends with 1 where the library failed; the page is written even so.
+# Whose libraries, and from where: build.sh. The build stays in build/comparison. Ends with 1 where the library failed;
+# the page is written even so.
 set -eu
 cd "$(dirname "$0")/../.."
 pairs=${1:-100} rounds=${2:-21} seed=${3:-1} folder=${4:-docs}
-build=build/comparison # its log lies beside it
-out=$build/tests/compare
-mkdir -p build
+. tests/compare/build.sh
 
-cmake -S . -B $build -DCMAKE_BUILD_TYPE=Release -DGJK_COMPARE_CARGO=ON -DGJK_COMPARE_PACKAGES=ON \
-    "-DGJK_COMPARE_LIBCCD=${GJK_COMPARE_LIBCCD:-}" >$build.log 2>&1 || { cat $build.log; exit 2; }
-grep '^-- Peer' $build.log
-cmake --build $build --parallel "$(nproc)" --target comparison >$build.log 2>&1 || { cat $build.log; exit 2; }
+set_up comparison
 python3 -m venv $build/venv # first what may be missing, then the long work
 $build/venv/bin/pip install -q './bindings/python[report]'
 
@@ -29,16 +21,19 @@ bench() { # PAIRS_FILE ROUNDS RESULTS [COMMAND...]
     shift 3
     tr '\n' '\0' <$out/everyone.txt | xargs -0 "$@" $out/bench "$file" "$rounds_here" "$results" || [ $? -eq 123 ]
 }
+say 'timing'
 sh tests/compare/draw_all.sh $out "$pairs" "$seed" $out/pairs.bin
 bench $out/pairs.bin "$rounds" $out/comparison.jsonl env
 counted=
 if command -v valgrind >/dev/null; then # it takes its time: a tenth of the pairs
+    say 'counting instructions'
     sh tests/compare/draw_all.sh $out $(((pairs + 9) / 10)) "$seed" $out/counted.bin
     bench $out/counted.bin 0 $out/counted.jsonl sh tests/compare/count.sh $out/counts
     counted="--counted $out/counted.jsonl --counts $out/counts"
 else
     echo 'valgrind is not installed: instructions are not counted'
 fi
+say 'writing the pages'
 # shellcheck disable=SC2086 # arguments
 $build/venv/bin/python tests/compare/comparison.py --command "sh tests/compare/comparison.sh $pairs $rounds $seed" $counted \
     -o "$folder/comparison.md" --html build/comparison/index.html --plot "$folder/comparison.svg" \
