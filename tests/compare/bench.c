@@ -4,18 +4,22 @@
  *   bench PAIRS ROUNDS OUTPUT [NAME=MODULE...]     writes JSON, one object a line, for comparison.py
  *
  * PAIRS is the binary file that draw_pairs and robot_pairs.py write. The library is a peer as any. In each round
- * everyone, in every setting, answers in turn all pairs of a class. ROUNDS 0: nothing is judged; run by callgrind, with
- * --instr-atstart=no, it dumps the instructions of one pass each, under the label that the answers have. Ends with 1
- * where the library failed, and where a peer is missing that the environment variable GJK_COMPARE_NEEDS names. */
-#define _DEFAULT_SOURCE /* fork */
+ * everyone, in every setting, answers in turn all pairs of a class. ROUNDS 0: nothing is judged; run by callgrind, it
+ * dumps the instructions of one pass each, under the label that the answers have. Ends with 1 where the library failed,
+ * and where a peer is missing that the environment variable GJK_COMPARE_NEEDS names. Where GJK_COMPARE_CLASSES is set,
+ * only those classes are asked about, and no growth, whose line "QUESTION DIM PRECISION CLASS STATE" has a match of it,
+ * an extended regular expression. */
+#define _DEFAULT_SOURCE /* fork, setitimer */
 #include "judge.h"
 #include "pair_file.h"
 #include "timing.h"
 
 #include <float.h>
 #include <math.h>
+#include <regex.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -23,12 +27,14 @@
 #define NOT_THERE HUGE_VAL /* printed as null */
 #define VALUE_ERROR 4.0    /* of ours, of bodies with corners, in u * scale */
 #define NORMAL_EXCESS 16.0
-#define MOST_DEADLY 20   /* one pair in so many: who crashes or hangs on more is not timed */
-#define LONGEST_SHOWN 64 /* points of an example */
+#define MOST_DEADLY 20      /* one pair in so many: who crashes or hangs on more is not timed */
+#define LONGEST_SHOWN 64    /* points of an example */
+#define LONGEST_COUNTED 300 /* seconds on the processor, under callgrind, of all pairs of a class */
 
 static const char *const question_name[QUESTIONS] = {"distance", "intersect", "penetration"};
 
 static long rounds;
+static const regex_t *chosen; /* NULL: all classes */
 static peer_list peers;
 static pair_block block;
 static fed *pairs;
@@ -44,6 +50,16 @@ typedef struct entry {
 
 static entry asked[MOST_PEERS];
 static int count_asked;
+
+static const char *precision_name(void) { return block.single ? "float" : "double"; }
+
+static int is_chosen(enum question question)
+{
+    char line[128];
+    snprintf(line, sizeof line, "%s %d %s %s %s", question_name[question], block.dim, precision_name(), block.name,
+             block.state);
+    return (block.questions >> question & 1) && (!chosen || regexec(chosen, line, 0, NULL, 0) == 0);
+}
 
 static int takes_all(const peer *p)
 {
@@ -140,16 +156,25 @@ static void find_safe(void)
     }
 }
 
-/* The bodies of one that makes them alike, or NULL. */
-static void *const *bodies_like(const peer *p, int count)
+static void all_are_safe(void)
 {
-    for (int k = 0; k < count; k++) {
-        if (asked[k].run.bodies && asked[k].p->make == p->make) {
-            return asked[k].run.bodies;
-        }
+    for (count_safe = 0; count_safe < block.pairs; count_safe++) {
+        safe[count_safe] = (int)count_safe;
+        track_of[count_safe] = block.track ? count_safe / block.track : 0;
     }
-    return NULL;
+    for (int k = 0; k < count_asked; k++) {
+        asked[k].timed = 1;
+    }
 }
+
+/* The bodies of the safe pairs, for all who make them alike. */
+typedef struct shelf {
+    const peer *p;
+    void **bodies;
+} shelf;
+
+static shelf shelves[MOST_PEERS];
+static int count_shelves;
 
 static void **make_bodies(const peer *p)
 {
@@ -165,18 +190,42 @@ static void **make_bodies(const peer *p)
     return made;
 }
 
+static void *const *bodies_of(const peer *p)
+{
+    int k = 0;
+    while (k < count_shelves && shelves[k].p->make != p->make) {
+        k++;
+    }
+    if (k == count_shelves) {
+        shelves[k].p = p;
+        shelves[k].bodies = make_bodies(p);
+        count_shelves++;
+    }
+    return shelves[k].bodies;
+}
+
+static void discard_bodies(void)
+{
+    for (int k = 0; k < count_shelves; k++) {
+        for (long i = 2 * count_safe - 1; i >= 0 && shelves[k].bodies; i--) {
+            shelves[k].p->discard(shelves[k].bodies[i]);
+        }
+        free(shelves[k].bodies);
+    }
+    count_shelves = 0;
+}
+
 /* Who is not timed needs no bodies; by the first it is told what asking costs. */
 static void start_runs(enum question question)
 {
     for (int k = 0; k < count_asked; k++) {
         run *r = &asked[k].run;
         const peer *p = r->p = asked[k].p;
-        void *const *like = bodies_like(p, k);
         if (k > 0 && !asked[k].timed) {
             continue;
         }
         r->query = p->query[question];
-        r->bodies = like ? like : make_bodies(p);
+        r->bodies = bodies_of(p);
         r->track = track_of;
         r->tracks = block.track ? (block.pairs - 1) / block.track + 1 : 1;
         r->memory = p->memory ? calloc((size_t)r->tracks, p->memory) : NULL;
@@ -185,15 +234,8 @@ static void start_runs(enum question question)
 
 static void end_runs(void)
 {
-    for (int k = count_asked - 1; k >= 0; k--) { /* those who share bodies come after the one who made them */
-        const run *r = &asked[k].run;
-        free(r->memory);
-        if (r->bodies && !bodies_like(r->p, k)) {
-            for (long i = 2 * count_safe - 1; i >= 0; i--) {
-                r->p->discard(r->bodies[i]);
-            }
-            free((void *)r->bodies);
-        }
+    for (int k = 0; k < count_asked; k++) {
+        free(asked[k].run.memory);
     }
 }
 
@@ -202,7 +244,7 @@ static void end_runs(void)
 static void print_asked(enum question question)
 {
     printf("\"question\": \"%s\", \"dim\": %d, \"precision\": \"%s\", \"class\": \"%s\", \"state\": \"%s\"",
-           question_name[question], block.dim, block.single ? "float" : "double", block.name, block.state);
+           question_name[question], block.dim, precision_name(), block.name, block.state);
 }
 
 /* Tolerances as powers of ten. */
@@ -221,9 +263,8 @@ static void spell_label(char *text, size_t size, enum question question, const p
 {
     char setting[32];
     spell_setting(setting, sizeof setting, p);
-    snprintf(text, size, "%s/%d/%s/%s/%s/%s/%s/%s/%s", question_name[question], block.dim,
-             block.single ? "float" : "double", block.name, block.state, p->library, p->knob, setting,
-             p->memory ? "warm" : "cold");
+    snprintf(text, size, "%s/%d/%s/%s/%s/%s/%s/%s/%s", question_name[question], block.dim, precision_name(), block.name,
+             block.state, p->library, p->knob, setting, p->memory ? "warm" : "cold");
 }
 
 static const char *truth_value(int x) { return x ? "true" : "false"; }
@@ -366,38 +407,6 @@ static void find_truths(void)
 
 /* ---- one block ---- */
 
-static void count_one(const run *r, const char *label)
-{
-    count_run(r, count_safe, label);
-    printf("{\"row\": \"counted\", \"label\": \"%s\", \"answers\": %ld}\n", label, count_safe);
-}
-
-/* What asking costs by itself is counted once. */
-static void count_instructions(enum question question)
-{
-    static int nothing_counted;
-    for (int k = 0; k < count_asked; k++) {
-        if (asked[k].timed) {
-            run_once(&asked[k].run, count_safe);
-        }
-    }
-    start_counting();
-    if (!nothing_counted) {
-        run nothing = asked[0].run;
-        nothing.query = ask_nothing;
-        count_one(&nothing, "nothing");
-        nothing_counted = 1;
-    }
-    for (int k = 0; k < count_asked; k++) {
-        if (asked[k].timed) {
-            char label[200];
-            spell_label(label, sizeof label, question, asked[k].p);
-            count_one(&asked[k].run, label);
-        }
-    }
-    stop_counting();
-}
-
 /* The last of the runs asks nothing. */
 static void time_all(run *empty)
 {
@@ -430,16 +439,13 @@ static long compare(enum question question)
     ask_all(question);
     find_safe();
     start_runs(question);
-    if (rounds == 0) {
-        count_instructions(question);
-    } else {
-        time_all(&empty);
-        print_class(question, &empty);
-        for (int k = 0; k < count_asked; k++) {
-            bad += print_answers(question, &asked[k], &empty);
-        }
+    time_all(&empty);
+    print_class(question, &empty);
+    for (int k = 0; k < count_asked; k++) {
+        bad += print_answers(question, &asked[k], &empty);
     }
     end_runs();
+    discard_bodies();
     forget_replies();
     return bad;
 }
@@ -484,6 +490,7 @@ static void grow(enum question question)
         printf("}\n");
     }
     end_runs();
+    discard_bodies();
     forget_replies();
     free(calls);
 }
@@ -510,29 +517,144 @@ static void free_pairs(void)
     free(safe);
 }
 
+static int is_any_chosen(void)
+{
+    int any = 0;
+    for (int question = 0; question < QUESTIONS; question++) {
+        any |= is_chosen((enum question)question);
+    }
+    return any;
+}
+
 /* Returns how often ours failed. */
-static long one_block(FILE *file)
+static long measure_block(void)
 {
     long bad = 0;
-    time_t start = time(NULL);
-    read_pairs(file);
-    if (!*block.growth && rounds) {
+    if (!*block.growth) {
         find_truths();
     }
     for (int question = 0; question < QUESTIONS; question++) {
-        if (block.questions >> question & 1) {
-            if (!*block.growth) {
-                bad += compare((enum question)question);
-            } else if (rounds) {
-                grow((enum question)question);
-            }
+        if (!is_chosen((enum question)question)) {
+            continue;
+        }
+        if (*block.growth) {
+            grow((enum question)question);
+        } else {
+            bad += compare((enum question)question);
         }
     }
-    free_pairs();
-    fflush(stdout);
-    fprintf(stderr, "%4.0f s  %s, %s%s%s, %d-D, %s\n", difftime(time(NULL), start), block.name, block.state,
-            *block.growth ? ", growth by " : "", block.growth, block.dim, block.single ? "float" : "double");
     return bad;
+}
+
+/* ---- instructions ---- */
+
+/* Of all passes those before this one have been counted, or died: a child counts, and where it dies, the next child
+ * goes on behind the pass that it died of. */
+static volatile long *begun;
+static long passes;
+
+static int begins(void)
+{
+    struct itimerval limit = {{0, 0}, {LONGEST_COUNTED, 0}};
+    if (passes++ < *begun) {
+        return 0;
+    }
+    *begun = passes;
+    setitimer(ITIMER_VIRTUAL, &limit, NULL);
+    return 1;
+}
+
+/* Twice, for what is done once is not counted. */
+static void count_one(const run *r, const char *label)
+{
+    run_once(r, count_safe);
+    count_run(r, count_safe, label);
+    printf("{\"row\": \"counted\", \"label\": \"%s\", \"answers\": %ld", label, count_safe);
+}
+
+/* What asking costs by itself is counted once. */
+static void count_nothing(void)
+{
+    if (passes == 0 && begins()) {
+        run nothing = asked[0].run;
+        nothing.query = ask_nothing;
+        count_one(&nothing, "nothing");
+        printf("}\n");
+        fflush(stdout);
+    }
+}
+
+static void count_question(enum question question)
+{
+    choose(question);
+    all_are_safe();
+    start_runs(question);
+    count_nothing();
+    for (int k = 0; k < count_asked; k++) {
+        if (begins()) {
+            char label[200];
+            spell_label(label, sizeof label, question, asked[k].p);
+            count_one(&asked[k].run, label);
+            printf(", ");
+            print_asked(question);
+            print_library(asked[k].p);
+            printf("}\n");
+            fflush(stdout);
+        }
+    }
+    end_runs();
+}
+
+static long count_block(void)
+{
+    for (int question = 0; question < QUESTIONS; question++) {
+        if (is_chosen((enum question)question)) {
+            count_question((enum question)question);
+        }
+    }
+    discard_bodies();
+    return 0;
+}
+
+/* ---- all blocks ---- */
+
+static long all_blocks(FILE *file, long (*one)(void))
+{
+    long bad = 0;
+    rewind(file);
+    while (read_block(file, &block)) {
+        time_t start = time(NULL);
+        int skipped = *block.growth && (rounds == 0 || chosen);
+        read_pairs(file);
+        if (!skipped && is_any_chosen()) {
+            bad += one();
+            fflush(stdout);
+            fprintf(stderr, "%4.0f s  %s, %s%s%s, %d-D, %s\n", difftime(time(NULL), start), block.name, block.state,
+                    *block.growth ? ", growth by " : "", block.growth, block.dim, precision_name());
+        }
+        free_pairs();
+    }
+    return bad;
+}
+
+static void count_all(FILE *file)
+{
+    int status = 1;
+    begun = shared_space(sizeof *begun);
+    while (status) {
+        long before = *begun;
+        pid_t child;
+        fflush(NULL);
+        child = fork();
+        if (child == 0) {
+            all_blocks(file, count_block);
+            _exit(0);
+        }
+        if (child < 0 || waitpid(child, &status, 0) < 0 || (status && *begun == before)) {
+            fprintf(stderr, "not all is counted\n");
+            exit(2);
+        }
+    }
 }
 
 static void print_head(void)
@@ -542,6 +664,17 @@ static void print_head(void)
            GJK_TEST_VERSION, GJK_TEST_COMPILER, block.seed, block.pairs, rounds);
     print_peers(&peers);
     printf("}\n");
+}
+
+/* NULL if there is none; ends the process where it is none. */
+static const regex_t *choice(const char *text)
+{
+    static regex_t expression;
+    if (text && regcomp(&expression, text, REG_EXTENDED | REG_NOSUB) != 0) {
+        fprintf(stderr, "GJK_COMPARE_CLASSES is no regular expression\n");
+        exit(2);
+    }
+    return text ? &expression : NULL;
 }
 
 int main(int argc, char **argv)
@@ -554,11 +687,14 @@ int main(int argc, char **argv)
         return 2;
     }
     rounds = strtol(argv[2], NULL, 10);
-    for (int first = 1; read_block(file, &block); first = 0) {
-        if (first) {
-            print_head();
-        }
-        bad += one_block(file);
+    chosen = choice(getenv("GJK_COMPARE_CLASSES"));
+    if (read_block(file, &block)) {
+        print_head();
+    }
+    if (rounds) {
+        bad = all_blocks(file, measure_block);
+    } else {
+        count_all(file);
     }
     fclose(file);
     printf("{\"row\": \"end\", \"failures\": %ld}\n", bad);

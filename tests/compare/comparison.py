@@ -21,8 +21,8 @@ def write(path, text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--command", default="sh tests/compare/comparison.sh", help="that wrote the page")
-    parser.add_argument("--counted", metavar="RESULTS.jsonl", help="of the run under callgrind")
-    parser.add_argument("--counts", metavar="FOLDER", help="with what callgrind wrote")
+    parser.add_argument("--counted", nargs="+", default=[], metavar="COUNTED.jsonl", help="of runs under callgrind")
+    parser.add_argument("--counts", nargs="+", default=[], metavar="FOLDER", help="with what callgrind wrote")
     parser.add_argument("-o", "--output", metavar="PAGE.md")
     parser.add_argument("--html", metavar="PAGE.html")
     parser.add_argument("--plot", metavar="PLOT.svg", help="the one of the README")

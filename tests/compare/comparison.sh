@@ -25,11 +25,16 @@ say 'timing'
 sh tests/compare/draw_all.sh $out "$pairs" "$seed" $out/pairs.bin
 bench $out/pairs.bin "$rounds" $out/comparison.jsonl env
 counted=
-if command -v valgrind >/dev/null; then # it takes its time: a tenth of the pairs
+count() { # double or float
+    GJK_COMPARE_CLASSES=" $1 " bench $out/counted.bin 0 "$out/counted.$1.jsonl" sh tests/compare/count.sh "$out/counts.$1"
+}
+if command -v valgrind >/dev/null; then # it takes its time: a tenth of the pairs, and a core for each precision
     say 'counting instructions'
     sh tests/compare/draw_all.sh $out $(((pairs + 9) / 10)) "$seed" $out/counted.bin
-    bench $out/counted.bin 0 $out/counted.jsonl sh tests/compare/count.sh $out/counts
-    counted="--counted $out/counted.jsonl --counts $out/counts"
+    count float &
+    count double
+    wait $!
+    counted="--counted $out/counted.double.jsonl $out/counted.float.jsonl --counts $out/counts.double $out/counts.float"
 else
     echo 'valgrind is not installed: instructions are not counted'
 fi
@@ -37,4 +42,4 @@ say 'writing the pages'
 # shellcheck disable=SC2086 # arguments
 $build/venv/bin/python tests/compare/comparison.py --command "sh tests/compare/comparison.sh $pairs $rounds $seed" $counted \
     -o "$folder/comparison.md" --html build/comparison/index.html --plot "$folder/comparison.svg" \
-    $out/comparison.jsonl
+    -- $out/comparison.jsonl

@@ -8,7 +8,7 @@ folder=$1
 shift
 rm -rf "$folder"
 mkdir "$folder"
-valgrind -q --tool=callgrind --instr-atstart=no "--callgrind-out-file=$folder/callgrind.%p" "$@"
+valgrind -q --tool=callgrind "--callgrind-out-file=$folder/callgrind.%p" "$@"
 count=$(grep -l '^desc: Trigger: Client Request' "$folder"/* | wc -l)
 echo "$count labels"
 [ "$count" -gt 0 ]

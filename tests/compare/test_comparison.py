@@ -279,7 +279,7 @@ def test_instructions_are_read_and_what_asking_costs_is_taken_off(few, tmp_path)
     for i, (label, total) in enumerate([(row["label"], 5000), ("nothing", 70)]):
         text = f"desc: Trigger: Client Request: {label}\nsummary: {total}\n\ntotals: {total}\n"
         (tmp_path / f"callgrind.out.{i}").write_text(text, encoding="utf-8")
-    measured = Measured([results], counted, tmp_path)
+    measured = Measured([results], [counted], [str(tmp_path)])
     assert [a.instructions for p in measured.places for a in p.answers if a.instructions] == [493]
     assert "; instructions of 7 of them" in words.head(measured)
 

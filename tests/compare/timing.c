@@ -10,8 +10,6 @@
 #if GJK_TEST_KNOWS_CALLGRIND
 #include <valgrind/callgrind.h>
 #else
-#define CALLGRIND_START_INSTRUMENTATION
-#define CALLGRIND_STOP_INSTRUMENTATION
 #define CALLGRIND_ZERO_STATS
 #define CALLGRIND_DUMP_STATS_AT(name) (void)(name)
 #endif
@@ -133,10 +131,6 @@ void time_runs(run *runs, int count, long pairs, long rounds)
     free(ns);
     free(passes);
 }
-
-void start_counting(void) { CALLGRIND_START_INSTRUMENTATION; }
-
-void stop_counting(void) { CALLGRIND_STOP_INSTRUMENTATION; }
 
 void run_once(const run *r, long pairs) { pass(r, pairs); }
 

@@ -26,11 +26,8 @@ void time_runs(run *runs, int count, long pairs, long rounds);
 /* A pass, so that what is done once is done. */
 void run_once(const run *r, long pairs);
 
-/* Has callgrind write the instructions of one pass under this label. Between the other two, which have all code
- * translated anew. */
-void start_counting(void);
+/* Has callgrind write the instructions of one pass under this label. */
 void count_run(const run *r, long pairs, const char *label);
-void stop_counting(void);
 
 double median(double *x, long count);
 

@@ -121,12 +121,12 @@ class Place(NamedTuple):
 
 
 class Measured:
-    """All rows of some runs, and what a run under callgrind counted: its own rows, and the folder it wrote to."""
+    """All rows of some runs, and what runs under callgrind counted: their own rows, and the folders they wrote to."""
 
-    def __init__(self, paths, counted=None, counts=None):
-        files = [_read(path) for path in paths]
-        counting = _read(counted) if counted else []
-        instructions = _instructions(counting, counts) if counted else {}
+    def __init__(self, paths, counted=(), counts=()):
+        files = [read(path) for path in paths]
+        counting = [row for path in counted for row in read(path)]
+        instructions = instructions_of(counting, counts)
         self.counted = next((row["pairs"] for row in counting if row["row"] == "head"), 0)
         self.heads = [rows[0] for rows in files]
         self.failures = sum(rows[-1]["failures"] for rows in files)
@@ -157,7 +157,7 @@ class Measured:
         return [p for p in self.places if p.ask == ask]
 
 
-def _read(path):
+def read(path):
     with open(path, encoding="utf-8") as lines:
         rows = [json.loads(row) for row in lines]
     if not rows or rows[-1]["row"] != "end":
@@ -179,13 +179,13 @@ def _answers(row, instructions):
     return Answers(**fields, failure=row.get("failure"))
 
 
-def _instructions(rows, counts):
-    """Instructions of an answer, by label, what asking costs by itself taken off. Callgrind writes a file for each."""
+def instructions_of(rows, counts):
+    """Instructions of an answer, by label, what asking costs by itself taken off. Callgrind wrote a file for each."""
     answers, totals = Counter(), Counter()
     for row in rows:
         if row["row"] == "counted":
             answers[row["label"]] += row["answers"]
-    for path in glob.glob(os.path.join(glob.escape(counts), "callgrind.*")):
+    for path in (path for folder in counts for path in glob.glob(os.path.join(glob.escape(folder), "callgrind.*"))):
         with open(path, encoding="utf-8") as lines:
             text = lines.read()
         label = re.search(r"^desc: Trigger: Client Request: (.*)$", text, re.MULTILINE)
