@@ -284,6 +284,14 @@ def test_instructions_are_read_and_what_asking_costs_is_taken_off(few, tmp_path)
     assert "; instructions of 7 of them" in words.head(measured)
 
 
+def test_instructions_are_counted_of_the_classes_asked_for():
+    script = [HERE / "instructions.sh", "-b", SMALL.parents[1], "-n", "2", "^distance 3 double boxes (path|separated)"]
+    counted = subprocess.run(["sh", *script], capture_output=True, text=True, check=True)
+    separated, path = counted.stdout.splitlines()
+    assert re.fullmatch(r"distance, 3-D, double: boxes, separated:  gjk3 \d{3,5}", separated)
+    assert re.fullmatch(r"distance, 3-D, double: boxes, path:  gjk3 \d{3,5}  gjk3, warm \d{3,5}", path)
+
+
 def test_results_without_an_end_are_refused(few, tmp_path):
     path = tmp_path / "results.jsonl"
     path.write_text("".join(json.dumps(row) + "\n" for row in few[:-1]), encoding="utf-8")
