@@ -7,9 +7,10 @@
 
 #define ROUNDING 4.0 /* in u * scale: what it may do to an answer */
 #define TELLS 300.0  /* likewise: so far from contact, whether they meet is to be told */
+#define SENSE 1e6    /* in scales of the pair: no length of it comes near */
 
-static const char *const failure_names[FAILURES] = {"sound",  "gave_up",   "crashed",  "hung",
-                                                    "missed", "no_normal", "undecided"};
+static const char *const failure_names[FAILURES] = {"sound",  "gave_up",   "crashed",   "hung",
+                                                    "missed", "no_normal", "undecided", "absurd"};
 static const char *const question_name[QUESTIONS] = {"distance", "intersect", "penetration"};
 
 /* What rounding can do. */
@@ -56,6 +57,18 @@ static int is_undecided(const peer *p, const fed *f, const reply *r)
     return r->answer.meet < 0 && (f->lower > far || -f->upper > far);
 }
 
+static quad said(enum question question, const reply *r)
+{
+    const peer_answer *x = &r->answer;
+    return question == DISTANCE ? (x->meet ? 0 : (quad)x->distance) : (x->meet ? -(quad)x->depth : 0);
+}
+
+static int is_absurd(enum question question, const fed *f, const reply *r)
+{
+    quad x = said(question, r), most = (quad)SENSE * f->scale;
+    return question != INTERSECT && f->scale > 0 && !(-most <= x && x <= most);
+}
+
 static enum failure failure_of(enum question question, const peer *p, const fed *f, const reply *r)
 {
     switch (r->outcome) {
@@ -66,7 +79,8 @@ static enum failure failure_of(enum question question, const peer *p, const fed 
     case HUNG:
         return HANGS;
     default:
-        return question == PENETRATION && misses(p, f, r)       ? MISSES
+        return is_absurd(question, f, r)                        ? ABSURD
+               : question == PENETRATION && misses(p, f, r)     ? MISSES
                : question == INTERSECT && is_undecided(p, f, r) ? UNDECIDED
                                                                 : SOUND;
     }
@@ -81,19 +95,17 @@ static int is_wrong_verdict(const peer *p, const fed *f, const reply *r)
 /* Of bodies that are apart the depth is 0. */
 static void judge_length(judgement *j, enum question question, const peer *p, const fed *f, const reply *r)
 {
-    const peer_answer *x = &r->answer;
     quad low, high, error, size, rounding = rounding_of(f, p->single);
-    quad said = question == DISTANCE ? (x->meet ? 0 : (quad)x->distance) : (x->meet ? -(quad)x->depth : 0);
     truth_of(question, f, &low, &high);
     if (question == PENETRATION) {
         low = -positive(-low);
         high = -positive(-high);
     }
-    error = off(said, low, high);
+    error = off(said(question, r), low, high);
     size = larger(low, -high);
     j->error = (double)(error / f->scale);
     j->relative = (double)(error / (size > rounding ? size : f->scale));
-    j->wrong = j->relative > WRONG && error > rounding && error > allowed(question, p, r);
+    j->wrong |= j->relative > WRONG && error > rounding && error > allowed(question, p, r);
 }
 
 static void judge_normal(judgement *j, const fed *f, const reply *r)
@@ -119,17 +131,20 @@ static judgement judged(enum question question, const peer *p, const fed *f, con
     judgement j;
     memset(&j, 0, sizeof j);
     j.failure = failure_of(question, p, f, r);
+    if (p->proves && r->outcome == ANSWERED && is_false(question, f, r)) {
+        j.failure = SOUND;
+        j.wrong = 1;
+    }
     if (j.failure != SOUND || !(f->scale > 0)) {
         return j;
     }
     if (question == INTERSECT) {
-        j.wrong = is_wrong_verdict(p, f, r);
+        j.wrong |= is_wrong_verdict(p, f, r);
     } else {
         judge_length(&j, question, p, f, r);
     }
     if (p->proves) {
         j.promised = (double)(allowed(question, p, r) / f->scale);
-        j.wrong |= is_false(question, f, r);
     }
     if (question == PENETRATION && -f->upper > rounding_of(f, p->single)) {
         judge_normal(&j, f, r);

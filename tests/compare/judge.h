@@ -13,6 +13,7 @@ enum failure {
     MISSES,    /* no overlap, or none deeper than 0, where it is deeper than rounding */
     NO_NORMAL, /* there, and no unit vector to go along */
     UNDECIDED, /* whether they meet, though far from contact */
+    ABSURD,    /* a length far beyond any that the pair has: no answer, but a number left over from the search */
     FAILURES
 };
 
@@ -24,7 +25,7 @@ typedef struct judgement {
     double error;    /* of the distance or depth; where a touch was not seen, all of it */
     double relative; /* the same as a part of the truth, where that is more than rounding, else of the scale */
     int wrong;       /* that is more than WRONG, and more than rounding, and than the peer allows itself; a verdict
-                        likewise; a bracket without the truth in it */
+                        likewise; a bracket without the truth in it, whatever else there is to say */
     double excess;   /* what b must be moved along the normal beyond the depth */
     double promised; /* the width of the bracket */
 } judgement;

@@ -68,7 +68,8 @@ How deep: `penetration` of those pairs that overlap or touch, or may. Ours, in u
 
 The peers, in scales, not in u: the largest error of a depth, the largest excess of a way out; then how many depths are
 off by more than a hundredth of themselves, and how many answers failed: *missed* an overlap that is deeper than
-rounding, or gave it no depth above 0; gave *no normal* of length 1; or none at all.
+rounding, or gave it no depth above 0; gave *no normal* of length 1; an *absurd* length, beyond a million scales; or
+none at all.
 """
 
 
@@ -142,7 +143,8 @@ def cell(peer, row, pairs):
     return text
 
 
-FAILURES = {"gave_up": "no answer", "crashed": "crashed", "hung": "hung", "missed": "missed", "no_normal": "no normal"}
+FAILURES = {"gave_up": "no answer", "crashed": "crashed", "hung": "hung", "missed": "missed", "no_normal": "no normal",
+            "absurd": "absurd"}  # fmt: skip
 
 
 def failures_of(row):

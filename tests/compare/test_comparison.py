@@ -299,21 +299,63 @@ def test_results_without_an_end_are_refused(few, tmp_path):
         Measured([path])
 
 
-def test_where_no_answer_has_a_number_there_is_no_error():
-    """In the rows of a peer that never answers, and of whether bodies meet; a dash, not a 0, on the page."""
-    path = SMALL / "silent.jsonl"
+@pytest.fixture(scope="module")
+def odd():
+    """The rows of peers that answer as none should, and their file."""
+    path = SMALL / "odd.1.jsonl"
     rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
-    answers = {(row["library"], row["question"]): row for row in rows if row["row"] == "answers"}
+    return {(r["library"], r["question"], r["state"]): r for r in rows if r["row"] == "answers" and r["default"]}, path
+
+
+def test_where_no_answer_has_a_number_there_is_no_error(odd):
+    """In the rows of a peer that never answers, and of whether bodies meet; a dash, not a 0, on the page."""
+    answers, path = odd
     for name in ("max_error", "median_error", "excess"):
-        assert answers["silent", "distance"][name] is None
-        assert answers["gjk3", "intersect"][name] is None
-    assert answers["gjk3", "distance"]["max_error"] is not None
+        assert answers["silent", "distance", "separated"][name] is None
+        assert answers["gjk3", "intersect", "separated"][name] is None
+    assert answers["gjk3", "distance", "separated"]["max_error"] is not None
     place = next(p for p in Measured([path]).places if p.ask.question == "distance")
-    failed = answers["silent", "distance"]["asked"]
+    failed = answers["silent", "distance", "separated"]["asked"]
     assert tables.errors([place]).rows[0][2] == f"–: {failed} failed"
     shown = next(row for row in tables.settings(place).rows if row[0] == "silent")
     assert shown[8:12] == ["–"] * 4
     assert shown[-2:] == ["0", str(failed)]
+
+
+def test_an_absurd_length_is_no_answer(odd):
+    """1e300 between bodies of size 1 has failed; it is not an error of 1e300."""
+    answers, path = odd
+    for question, state, told in (("distance", "separated", "apart"), ("penetration", "deep", "overlapping")):
+        row = answers["absurd", question, state]
+        assert (row["wrong"], row["failed"], row["failure"]) == (0, row["asked"], "absurd")
+        assert row["max_error"] is None
+        place = next(p for p in Measured([path]).places if (p.ask.question, p.state) == (question, state))
+        assert f"absurd says {told} by 1e+300" in tables.said(place, place.default("absurd"))
+
+
+def test_who_dies_is_left_out_of_the_counting():
+    """Of those counted natively, where callgrind would write what it counts, the others are all there."""
+    rows = [json.loads(line) for line in (SMALL / "odd.0.jsonl").read_text(encoding="utf-8").splitlines()]
+    counted = Counter(row.get("library", row["label"]) for row in rows if row["row"] == "counted")
+    assert counted.keys() == {"nothing", "gjk3", "silent", "absurd"}
+    assert counted["nothing"] == 1
+    assert counted["silent"] == counted["absurd"] == 4
+
+
+def test_one_huge_error_leaves_all_curves_to_be_seen(browser, few, tmp_path):
+    """Ours falls by many powers of ten with its steps, and is not flattened by what another says."""
+    rows = [dict(row) for row in few]
+    row = next(r for r in rows if r.get("question") == "penetration" and r.get("library") == "libccd MPR")
+    row["max_error"] = 1e307
+    path = tmp_path / "few.jsonl"
+    path.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
+    page = write(tmp_path, [path]) / "index.html"
+    assert "1.0e307" in page.read_text(encoding="utf-8")
+    seen = look(browser, page, "desk")
+    assert not list(faults(seen, curves(rows), "desk"))
+    figure = next(figure for figure in seen["figures"] if figure["id"] == slug(*asked(row)))
+    _, box, _ = next(curve for curve in figure["curves"] if curve[0].endswith("-curve-gjk3-steps"))
+    assert box[3] - box[1] > 50
 
 
 def test_where_ours_is_not_first_is_said(few, tmp_path):

@@ -37,8 +37,8 @@ widest bracket that ours returned: the true error is never larger.
 
 An answer is *wrong* where a distance or depth is off by more than a hundredth of itself, by more than 4 roundings,
 and by more than its setting allows; a verdict that is wrong further from contact than that; and of ours, at any
-setting, a bracket without the truth in it. It *failed* where there was no number or no normal, where an overlap
-deeper than that was not seen, where no verdict came though contact is 300 roundings away, and where the process died
+setting, a bracket without the truth in it. It *failed* where there was no number, or one beyond a million scales, or
+no normal, where an overlap deeper than that was not seen, where no verdict came though contact is 300 roundings away, and where the process died
 or took more than a quarter of a second. The *excess* of a depth is how much further than the depth the second body
 must be moved along the normal that came back, at most."""
 FAIR = """\
