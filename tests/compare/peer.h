@@ -5,6 +5,7 @@
 #define PEER_H
 
 #include <stddef.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -70,6 +71,22 @@ typedef struct peer {
     /* So many support calls, on one and the other in turn, and nothing else; NULL: it is not to be told apart. */
     void (*supports)(const void *a, const void *b, int count);
 } peer;
+
+/* What those in 3-D with one tolerance, which holds for all questions, have in common. */
+static inline peer tolerant_peer(const char *library, double tolerance, int usual, const char *version)
+{
+    peer p;
+    memset(&p, 0, sizeof p);
+    p.library = library;
+    p.knob = "tolerance";
+    p.setting = p.tolerance[DISTANCE] = p.tolerance[INTERSECT] = p.tolerance[PENETRATION] = tolerance;
+    p.usual = usual;
+    p.version = version;
+    p.dim = 3;
+    p.cores = ALL_CORES;
+    p.poses = 1;
+    return p;
+}
 
 /* The one function that a module exports: its peers. */
 typedef const peer *peers_fn(int *count);

@@ -147,21 +147,16 @@ try {
 
 /* ---- settings ---- */
 
+const double usual = 1e-6; /* GJK_DEFAULT_TOLERANCE, EPA_DEFAULT_TOLERANCE */
+
 peer setting(double tolerance, size_t memory)
 {
-    peer p = peer();
-    p.library = "coal";
-    p.knob = "tolerance";
-    p.setting = p.tolerance[DISTANCE] = p.tolerance[INTERSECT] = p.tolerance[PENETRATION] = tolerance;
-    p.usual = tolerance == 1e-6; /* GJK_DEFAULT_TOLERANCE, EPA_DEFAULT_TOLERANCE */
+    peer p = tolerant_peer("coal", tolerance, tolerance == usual, PEER_VERSION);
     p.memory = memory;
-    p.version = PEER_VERSION;
     p.how[DISTANCE] = "distance, unsigned";
     p.how[INTERSECT] = "collide, without contacts";
     p.how[PENETRATION] = "distance, signed";
-    p.dim = 3;
-    p.cores = ALL_CORES;
-    p.poses = p.radii = 1;
+    p.radii = 1;
     p.make = make;
     p.discard = discard;
     p.query[DISTANCE] = distance;
@@ -176,10 +171,10 @@ const peer *gjk_peers(int *count)
 {
     static std::vector<peer> all;
     if (all.empty()) {
-        for (double tolerance : {1e-6, 1e-2, 1e-3, 1e-4, 1e-8, 1e-10, 1e-12}) {
+        for (double tolerance : {usual, 1e-2, 1e-3, 1e-4, 1e-8, 1e-10, 1e-12}) {
             all.push_back(setting(tolerance, 0));
         }
-        all.push_back(setting(1e-6, sizeof(guess)));
+        all.push_back(setting(usual, sizeof(guess)));
     }
     *count = static_cast<int>(all.size());
     return all.data();

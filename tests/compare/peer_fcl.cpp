@@ -80,8 +80,6 @@ void discard(void *made) { delete static_cast<body *>(made); }
 
 /* ---- questions ---- */
 
-const char tolerance[] = "tolerance";
-
 const char own_name[] = "FCL own GJK";
 
 fcl::GJKSolverType solver_of(const peer *p) { return p->library == own_name ? fcl::GST_INDEP : fcl::GST_LIBCCD; }
@@ -179,20 +177,12 @@ try {
 
 peer setting(bool own, double value, size_t memory)
 {
-    peer p = peer();
-    p.library = own ? own_name : "FCL";
-    p.knob = tolerance;
-    p.setting = p.tolerance[DISTANCE] = p.tolerance[INTERSECT] = p.tolerance[PENETRATION] = value;
-    p.usual = value == 1e-6; /* as it comes */
+    peer p = tolerant_peer(own ? own_name : "FCL", value, value == 1e-6, PEER_VERSION); /* as it comes */
     p.memory = memory;
-    p.version = PEER_VERSION;
     p.how[DISTANCE] = own ? "distance, GST_INDEP" : "distance, GST_LIBCCD";
     p.how[INTERSECT] = own ? "collide, GST_INDEP" : "collide, GST_LIBCCD";
     p.how[PENETRATION] =
         own ? "contact of collide of its shapes, GST_INDEP" : "signed distance of its shapes, GST_LIBCCD";
-    p.dim = 3;
-    p.cores = ALL_CORES;
-    p.poses = 1;
     p.make = make;
     p.discard = discard;
     p.query[DISTANCE] = memory ? nullptr : how_far;

@@ -182,22 +182,17 @@ int penetration(const peer *p, const void *a, const void *b, void *memory, peer_
 
 /* ---- settings ---- */
 
+const double usual = 1e-4; /* cDefaultCollisionTolerance, cDefaultPenetrationTolerance */
+
 peer setting(double tolerance, size_t memory)
 {
-    peer p = peer();
-    p.library = "Jolt";
-    p.knob = "tolerance";
-    p.setting = p.tolerance[DISTANCE] = p.tolerance[INTERSECT] = p.tolerance[PENETRATION] = tolerance;
-    p.usual = tolerance == 1e-4; /* cDefaultCollisionTolerance, cDefaultPenetrationTolerance */
+    peer p = tolerant_peer("Jolt", tolerance, tolerance == usual, PEER_VERSION);
     p.memory = memory;
-    p.version = PEER_VERSION;
     p.how[DISTANCE] = "GJKClosestPoint::GetClosestPoints";
     p.how[INTERSECT] = "GJKClosestPoint::Intersects";
     p.how[PENETRATION] = "EPAPenetrationDepth::GetPenetrationDepth";
-    p.dim = 3;
     p.single = 1;
-    p.cores = ALL_CORES;
-    p.poses = p.radii = 1;
+    p.radii = 1;
     p.make = make;
     p.discard = discard;
     p.query[DISTANCE] = distance;
@@ -212,10 +207,10 @@ const peer *gjk_peers(int *count)
 {
     static std::vector<peer> all;
     if (all.empty()) {
-        for (double tolerance : {1e-4, 1e-2, 1e-3, 1e-5, 1e-6}) {
+        for (double tolerance : {usual, 1e-2, 1e-3, 1e-5, 1e-6}) {
             all.push_back(setting(tolerance, 0));
         }
-        all.push_back(setting(1e-4, 3 * sizeof(float)));
+        all.push_back(setting(usual, 3 * sizeof(float)));
     }
     *count = static_cast<int>(all.size());
     return all.data();

@@ -184,18 +184,11 @@ const peer *gjk_peers(int *count)
     static peer all[sizeof tolerances / sizeof *tolerances];
     *count = (int)(sizeof tolerances / sizeof *tolerances);
     mju_user_warning = ignore; /* it would write a file */
-    memset(all, 0, sizeof all);
     for (int k = 0; k < *count; k++) {
         peer *p = &all[k];
-        p->library = "MuJoCo";
-        p->knob = "tolerance";
-        p->setting = tolerances[k];
-        p->usual = k == 0;
-        p->version = PEER_VERSION;
+        *p = tolerant_peer("MuJoCo", tolerances[k], k == 0, PEER_VERSION);
         p->how[DISTANCE] = p->how[INTERSECT] = p->how[PENETRATION] = "mj_geomDistance, corners in float";
-        p->dim = 3;
         p->cores = ALL_CORES & ~CORE(CONE);
-        p->poses = 1;
         p->make = make;
         p->discard = discard;
         p->query[DISTANCE] = distance;
