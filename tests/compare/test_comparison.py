@@ -374,12 +374,23 @@ def test_where_ours_is_not_first_is_said(few, tmp_path):
         measured = Measured([path])
         reached = [row[1] for row in tables.marks(measured).rows if row[1] != "not measured"]
         assert len(reached) >= 3
-        return dict(tables.not_first(measured))["penetration, 3-D, double"], reached
+        by_class, by_library = (
+            {row[1]: row[4] for row in t(measured).rows if row[0] == "3-D, double"}
+            for t in (tables.by_class, tables.by_library)
+        )
+        tabled = by_class["boxes"], by_library["libccd MPR"], dict(tables.glance(measured))["Fast?"]
+        return dict(tables.not_first(measured))["penetration, 3-D, double"], reached, tabled
 
-    lines, reached = told(0.5, 1e-16)
+    lines, reached, tabled = told(0.5, 1e-16)
+    assert tabled[0] == "4 of 4: 0.50, libccd GJK"
+    assert re.fullmatch(r"0\.50: (\d+) of \1, \1 as good; \1 more exact", tabled[1])
+    assert re.fullmatch(r"In (\d+) of \1 classes someone is faster, in \1 .* In 0 ours is the fastest.", tabled[2])
     assert any("is faster in" in line and "(0.50 of our time)" in line for line in lines)
     assert any("is more exact in" in line and "1.0e-16 to 1.0e-15" in line for line in lines)
     assert all(text.startswith("0 of") for text in reached)
-    lines, reached = told(4, 5e-15)
+    lines, reached, tabled = told(4, 5e-15)
+    assert tabled[0] == "0 of 4"
+    assert re.fullmatch(r"4\.00: 0 of \d+", tabled[1])
+    assert re.fullmatch(r"In 0 of (\d+) classes someone is faster, .* In \1 ours is the fastest.", tabled[2])
     assert lines == ["Ours is the fastest and the most exact in every class."]
     assert not any(text.startswith("0 of") for text in reached)

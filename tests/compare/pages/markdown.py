@@ -16,46 +16,65 @@ def page(measured, command, plot):
     yield "# Comparison"
     yield ""
     yield words.LEAD
-    yield "This page is written by a program; do not edit it. To write it anew, with build/comparison/index.html, the"
-    yield "page that has all plots and all settings:"
     yield ""
-    yield "```sh"
-    yield command
-    yield "```"
+    yield from (f"- **{question}** {answer}" for question, answer in tables.glance(measured))
     yield ""
     yield words.head(measured)
     if plot:
         yield ""
         yield f"![{words.PLOT}]({plot})"
-    yield ""
-    yield from table(tables.peers(measured))
-    for title, parts in sections(measured):
+    for title, parts in sections(measured, command):
         yield ""
         yield f"## {title}"
         yield ""
         yield from parts
 
 
-def sections(measured):
-    yield "Marks", [words.MARKS, "", *table(tables.marks(measured))]
+def how_to_make(command):
+    yield "This page is written by a program; do not edit it. To write it anew, with build/comparison/index.html, the"
+    yield "page that has all plots and all settings:"
+    yield ""
+    yield "```sh"
+    yield command
+    yield "```"
+
+
+def sections(measured, command):
     yield "Where ours is not first", not_first(measured)
     yield "Right and wrong", [words.COUNTS, "", *table(tables.counts(measured))]
+    yield "Marks", [words.MARKS, "", *table(tables.marks(measured))]
+    yield "How to make it anew", how_to_make(command)
     yield "How to read it", [words.HOW_TO_READ, "", words.FAIR]
+    yield "Libraries", table(tables.peers(measured))
     for ask in measured.asks():
         yield sentence(ask.title), asked(measured.of(ask))
-    yield "Cases to replay", [words.REPLAY, *replays(measured)]
+    yield "Cases to replay", [words.REPLAY, "", *folded("Cases", replays(measured))]
 
 
 def not_first(measured):
     yield words.NOT_FIRST
-    for title, lines in tables.not_first(measured):
+    for text, t in ((words.BY_CLASS, tables.by_class(measured)), (words.BY_LIBRARY, tables.by_library(measured))):
         yield ""
-        yield f"**{sentence(title)}**"
+        yield text
         yield ""
-        yield from (f"- {text}" for text in lines)
+        yield from table(t)
+
+
+def folded(title, parts):
+    yield f"<details><summary>{title}</summary>"
+    yield ""
+    yield from parts
+    yield ""
+    yield "</details>"
 
 
 def asked(places):
+    yield from folded("Times", times(places))
+    yield ""
+    yield from folded("Errors", errors(places))
+
+
+def times(places):
     yield words.TIMES
     yield ""
     yield from table(tables.times(places))
@@ -65,7 +84,9 @@ def asked(places):
         yield words.WARM
         yield ""
         yield from table(warm)
-    yield ""
+
+
+def errors(places):
     yield words.ERRORS if places[0].ask.question != "intersect" else words.VERDICTS
     yield ""
     yield from table(tables.errors(places))

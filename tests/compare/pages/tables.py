@@ -112,14 +112,115 @@ def about(place):
 
 
 class Rival(NamedTuple):
+    """Someone beside ours, in one class."""
+
     place: Place
     ours: object
     theirs: object
+
+    @property
+    def ratio(self):
+        return self.theirs.ratio(self.ours)
+
+    @property
+    def is_faster(self):
+        return self.ratio is not None and self.ratio < 1
+
+    @property
+    def is_as_good(self):
+        """As right, and as exact but for roundings."""
+        return not self.theirs.bad and not _less_exact(self)
 
 
 def _rivals(places, library, warm):
     both = [Rival(p, p.ours(warm), p.default(library, warm)) for p in places]
     return [r for r in both if r.ours and r.theirs]
+
+
+def _against_all(place, warm=False):
+    return [r for a in place.theirs(warm) for r in _rivals([place], a.library, warm)]
+
+
+def glance(measured):
+    """The whole in three answers: what is lost first."""
+    held = [rivals for rivals in map(_against_all, measured.places) if any(r.ratio for r in rivals)]
+    faster = [rivals for rivals in held if any(r.is_faster for r in rivals)]
+    as_good = [rivals for rivals in faster if any(r.is_faster and r.is_as_good for r in rivals)]
+    yield "Fast?", (
+        f"In {len(faster)} of {len(held)} classes someone is faster, in {len(as_good)} of these someone who is as right"
+        f" and exact. In {len(held) - len(faster)} ours is the fastest."
+    )
+    exact = [rivals for rivals in map(_against_all, measured.places) if any(map(_has_errors, rivals))]
+    beaten = sum(any(map(_is_exacter, rivals)) for rivals in exact)
+    yield "Exact?", (
+        f"In {beaten} of {len(exact)} classes someone who answers all right has a smaller largest error. In"
+        f" {len(exact) - beaten} no one has."
+    )
+    ours, theirs = ([row for row in _counts(measured) if row[0].startswith("gjk") == own] for own in (True, False))
+    wrong = sum(a.wrong for p in measured.places for a in p.answers if a.is_ours)
+    text = f"Of our answers {_bad(ours)} are wrong or failed; at all settings together {wrong} are wrong."
+    if theirs:
+        worst = max(theirs, key=lambda row: (row[2] + row[3]) / row[1])
+        text += f" Of the others' {_bad(theirs)}, the most of {worst[0]}: {_bad([worst])}."
+    yield "Right?", text
+
+
+def _bad(rows):
+    asked, wrong, failed = (sum(row[k] for row in rows) for k in (1, 2, 3))
+    return f"{wrong + failed} of {asked}"
+
+
+QUESTIONS = ("distance", "intersect", "penetration")
+
+
+def _kinds(measured):
+    """Dimension and precision, with the places of each question."""
+    kinds = dict.fromkeys((ask.dim, ask.precision) for ask in measured.asks())
+    for dim, precision in kinds:
+        own = [p for p in measured.places if (p.ask.dim, p.ask.precision) == (dim, precision)]
+        yield f"{dim}-D, {precision}", [[p for p in own if p.ask.question == question] for question in QUESTIONS]
+
+
+def by_class(measured):
+    """By class: in how many states someone as right and exact is faster, and who most."""
+    rows = []
+    for kind, of_question in _kinds(measured):
+        for name in dict.fromkeys(p.name for places in of_question for p in places):
+            cells = [_lost([p for p in places if p.name == name]) for places in of_question]
+            rows.append([kind, name, *cells])
+    return Table(["pairs", "class", *QUESTIONS], rows, 5)
+
+
+def _lost(places):
+    held = [[r for r in _against_all(p) if r.ratio and r.is_as_good] for p in places]
+    faster = [min(rivals, key=lambda r: r.ratio) for rivals in held if any(r.is_faster for r in rivals)]
+    if not faster:
+        return f"0 of {len(places)}" if places else NONE
+    most = min(faster, key=lambda r: r.ratio)
+    return f"{len(faster)} of {len(places)}: {ratio(most.ratio)}, {most.theirs.library}"
+
+
+def by_library(measured):
+    """By library: what it takes, in how many classes it is faster, in how many of these as right and exact."""
+    rows = []
+    for kind, of_question in _kinds(measured):
+        for warm in (False, True):
+            for name in _theirs([p for places in of_question for p in places], warm):
+                cells = [_rival(_rivals(places, name, warm)) for places in of_question]
+                rows.append([kind, f"{name}, warm" if warm else name, *cells])
+    return Table(["pairs", "library", *QUESTIONS], rows, 5)
+
+
+def _rival(held):
+    timed = [r for r in held if r.ratio]
+    if not timed:
+        return NONE
+    faster = [r for r in timed if r.is_faster]
+    text = f"{ratio(mean_ratio([r.ratio for r in timed]))}: {len(faster)} of {len(timed)}"
+    if faster:
+        text += f", {sum(r.is_as_good for r in faster)} as good"
+    exacter = sum(map(_is_exacter, held))
+    return f"{text}; {exacter} more exact" if exacter else text
 
 
 def not_first(measured):
@@ -138,10 +239,10 @@ def not_first(measured):
 
 def _rival_texts(library, rivals, warm):
     name = f"{library}, warm," if warm else library
-    faster = [r for r in rivals if (r.theirs.ratio(r.ours) or 1) < 1]
+    faster = [r for r in rivals if r.is_faster]
     if faster:
         text = f"{name} is faster in {len(faster)} of {len(rivals)} classes ({_span(_ratios(faster))} of our time)"
-        sound = [r for r in faster if not r.theirs.bad and not _less_exact(r)]
+        sound = [r for r in faster if r.is_as_good]
         if len(sound) < len(faster):
             text += f"; in {len(faster) - len(sound)} of these with larger errors, or wrong or failed answers"
         if sound:
@@ -159,7 +260,7 @@ def _rival_texts(library, rivals, warm):
 
 
 def _ratios(rivals):
-    return [r.theirs.ratio(r.ours) for r in rivals]
+    return [r.ratio for r in rivals]
 
 
 def _span(ratios):
@@ -259,9 +360,7 @@ def _mark_row(mark, measured):
 def _error_row(measured):
     """Whether in each class everyone's largest error is at least ours."""
     text = "as exact as whoever is most exact, of those that are neither wrong nor fail"
-    places = [
-        [r for a in p.theirs() for r in _rivals([p], a.library, False) if _has_errors(r)] for p in measured.places
-    ]
+    places = [[r for r in _against_all(p) if _has_errors(r)] for p in measured.places]
     places = [rivals for rivals in places if rivals]
     lost = [r for rivals in places for r in rivals if _is_exacter(r)]
     if not lost:
@@ -279,14 +378,16 @@ def _spelled(place):
 # ---- answers that are wrong ----
 
 
-def counts(measured):
-    """Of each library how many of all its answers at its defaults are wrong or failed."""
-    rows = []
+def _counts(measured):
     for library in measured.libraries:
         own = [a for p in measured.places for a in p.answers if a.library == library and a.default]
         if own:
-            rows.append([library, *(str(sum(getattr(a, k) for a in own)) for k in ("asked", "wrong", "failed"))])
-    return Table(["library", "answers", "wrong", "failed"], rows)
+            yield library, *(sum(getattr(a, k) for a in own) for k in ("asked", "wrong", "failed"))
+
+
+def counts(measured):
+    """Of each library how many of all its answers at its defaults are wrong or failed."""
+    return Table(["library", "answers", "wrong", "failed"], [list(map(str, row)) for row in _counts(measured)])
 
 
 def examples(measured, most=2, length=1500):

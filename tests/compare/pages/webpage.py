@@ -16,6 +16,9 @@ PAGE = Template(
 <header>
 <h1>Error against run time</h1>
 <p>$lead</p>
+<ul>
+$glance
+</ul>
 <p class="soft">$head</p>
 <pre>$command</pre>
 </header>
@@ -82,6 +85,7 @@ def page(measured, command):
     )
     body = PAGE.substitute(
         lead=escape(words.LEAD),
+        glance="\n".join(f"<li><b>{escape(q)}</b> {escape(text)}</li>" for q, text in tables.glance(measured)),
         head=escape(words.head(measured)),
         command=escape(command),
         cards="\n".join(_cards(measured)),
@@ -138,6 +142,8 @@ def _cards(measured):
 
 def _not_first(measured):
     parts = [prose(words.NOT_FIRST)]
+    parts += [prose(words.BY_CLASS), table(tables.by_class(measured), "prose")]
+    parts += [prose(words.BY_LIBRARY), table(tables.by_library(measured), "prose")]
     for title, lines in tables.not_first(measured):
         parts.append(f"<h3>{escape(sentence(title))}</h3>\n<ul>")
         parts += [f"<li>{escape(text)}</li>" for text in lines]

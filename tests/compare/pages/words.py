@@ -15,8 +15,14 @@ least are of theirs ÷ ours, the median time that they take divided by ours: abo
 they are largest errors, theirs to ours. Sound is who answers all right and errs by no more than 1e-14 scales."""
 NOT_FIRST = """\
 Everyone at its defaults. Faster is by median time; more exact by the largest error of a class, of those who have no
-wrong and no failed answer in it. Among the faster, who is off by no more than 4 roundings of the scale counts as
-exact."""
+wrong and no failed answer in it. Among the faster, who has none either, and is off by no more than ours or than 4
+roundings of the scale, counts as *as good*."""
+BY_CLASS = """\
+By class: in how many of its states someone as good is faster, and the fastest of all these, with the part of our time
+that it takes."""
+BY_LIBRARY = """\
+By library: the mean (geometric) of its time divided by ours, below 1 it is the faster; then in how many classes it is
+faster, and in how many of these as good. Which classes these are, the page with all plots lists."""
 COUNTS = "Of all answers at the defaults, cold and warm."
 TIMES = """\
 Ours: nanoseconds (median) and, where they were counted, instructions an answer. Of the others what each takes divided
@@ -35,12 +41,12 @@ bodies. An *error* is how far the distance, or the depth, is off the truth, in s
 of any length where the bodies are spelled by their corners, else a bracket of 113 bits. *Promised* is the width of the
 widest bracket that ours returned: the true error is never larger.
 
-An answer is *wrong* where a distance or depth is off by more than a hundredth of itself, by more than 4 roundings,
-and by more than its setting allows; a verdict that is wrong further from contact than that; and of ours, at any
-setting, a bracket without the truth in it. It *failed* where there was no number, or one beyond a million scales, or
-no normal, where an overlap deeper than that was not seen, where no verdict came though contact is 300 roundings away, and where the process died
-or took more than a quarter of a second. The *excess* of a depth is how much further than the depth the second body
-must be moved along the normal that came back, at most."""
+An answer is *wrong* where a distance or depth is off by more than a hundredth of itself, by more than 4 roundings, and
+by more than its setting allows; a verdict that is wrong further from contact than that; and of ours, at any setting, a
+bracket without the truth in it. It *failed* where there was no number, or one beyond a million scales, or no normal,
+where an overlap deeper than that was not seen, where no verdict came though contact is 300 roundings away, and where
+the process died or took more than a quarter of a second. The *excess* of a depth is how much further than the depth the
+second body must be moved along the normal that came back, at most."""
 FAIR = """\
 All libraries answer in one process, from the same file of pairs: in each round everyone in turn answers all pairs of
 the class, and once more off the clock before that, so that all find their bodies in the caches. What asking costs by
