@@ -151,10 +151,11 @@ def glance(measured):
         f" and exact. In {len(held) - len(faster)} ours is the fastest."
     )
     exact = [rivals for rivals in map(_against_all, measured.places) if any(map(_has_errors, rivals))]
-    beaten = sum(any(map(_is_exacter, rivals)) for rivals in exact)
+    beaten = [[r for r in rivals if _is_exacter(r)] for rivals in exact if any(map(_is_exacter, rivals))]
+    wider = sum(all(_is_wider(measured, r) for r in rivals) for rivals in beaten)
     yield "Exact?", (
-        f"In {beaten} of {len(exact)} classes someone who answers all right has a smaller largest error. In"
-        f" {len(exact) - beaten} no one has."
+        f"In {len(beaten)} of {len(exact)} classes someone who answers all right has a smaller largest error, in"
+        f" {wider} of these only who answers pairs in float in double. In {len(exact) - len(beaten)} no one has."
     )
     ours, theirs = ([row for row in _counts(measured) if row[0].startswith("gjk") == own] for own in (True, False))
     wrong = sum(a.wrong for p in measured.places for a in p.answers if a.is_ours)
@@ -163,6 +164,11 @@ def glance(measured):
         worst = max(theirs, key=lambda row: (row[2] + row[3]) / row[1])
         text += f" Of the others' {_bad(theirs)}, the most of {worst[0]}: {_bad([worst])}."
     yield "Right?", text
+
+
+def _is_wider(measured, r):
+    """Whether they answer in more digits than the pairs and ours have."""
+    return r.place.ask.precision == "float" and not measured.peers[r.theirs.library]["single"]
 
 
 def _bad(rows):
