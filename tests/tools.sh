@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=sh
 # Sees to it that the tools are there which a script needs: the script includes this, says in a function `look` what it
 # needs or can use, and calls `get_tools`.
 

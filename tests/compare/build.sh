@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+# shellcheck shell=sh
 # Builds what the scripts beside it run, for them to include from the root of the checkout.
 #
 # A C compiler, cmake, GMP and Python are needed; who else is compared with is used where it is installed (Debian:
@@ -28,6 +29,7 @@ look() {
 }
 
 build=build/comparison # its log lies beside it
+# shellcheck disable=SC2034 # for those who include it
 out=$build/tests/compare
 
 start=$(date +%s)

@@ -26,7 +26,8 @@ sh tests/compare/draw_all.sh $out "$pairs" "$seed" $out/pairs.bin
 bench $out/pairs.bin "$rounds" $out/comparison.jsonl env
 counted=
 count() { # double or float
-    GJK_COMPARE_CLASSES=" $1 " bench $out/counted.bin 0 "$out/counted.$1.jsonl" sh tests/compare/count.sh "$out/counts.$1"
+    GJK_COMPARE_CLASSES=" $1 " bench $out/counted.bin 0 "$out/counted.$1.jsonl" \
+        sh tests/compare/count.sh "$out/counts.$1"
 }
 if command -v valgrind >/dev/null; then # it takes its time: a tenth of the pairs, and a core for each precision
     say 'counting instructions'

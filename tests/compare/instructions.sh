@@ -42,12 +42,12 @@ else
 fi
 modules=
 for peer in gjk3 gjk3f gjk2 gjk2f "$@"; do
-    module=$(grep "^$peer=." $out/everyone.txt) || { echo "no such peer: $peer" >&2; exit 1; }
+    module=$(grep "^$peer=." "$out/everyone.txt") || { echo "no such peer: $peer" >&2; exit 1; }
     [ -n "$built" ] || cmake --build $build --target "peer_$peer" >$build.log 2>&1 || fail
     modules="$modules $module"
 done
 counted=$out/instructions
-sh tests/compare/draw_all.sh $out "$pairs" 1 $counted.bin
+sh tests/compare/draw_all.sh "$out" "$pairs" 1 "$counted.bin"
 # shellcheck disable=SC2086 # a word for each module
-sh tests/compare/count.sh $counted $out/bench $counted.bin 0 $counted.jsonl $modules >&2
-python3 tests/compare/instructions.py $counted.jsonl $counted
+sh tests/compare/count.sh "$counted" "$out/bench" "$counted.bin" 0 "$counted.jsonl" $modules >&2
+python3 tests/compare/instructions.py "$counted.jsonl" "$counted"
