@@ -254,6 +254,30 @@ static void of_a_box_edited(void **state)
     }
 }
 
+static real far_away[DIM];
+
+static void leap(void) { memcpy(p.b.pose.p, far_away, sizeof far_away); }
+
+/* From inside to far away: the simplex that held the origin is then so small beside its distance that rounding alone
+ * says it still does. */
+static void after_a_leap(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 20000; i++) {
+        draws d = draws_from(6, 11, i);
+        start_body(&p.a, BOX);
+        start_body(&p.b, BOX);
+        for (int k = 0; k < DIM; k++) {
+            p.a.half[k] = p.b.half[k] = 2;
+        }
+        bind_pair(&p);
+        for (int k = 0; k < DIM; k++) {
+            far_away[k] = (real)ldexp(between(&d, -2, 2), (VARIANT_FLOAT ? 16 : 44) + below(&d, 10));
+        }
+        ask_along(&d, leap);
+    }
+}
+
 static real corner[4][DIM];
 
 static void edit_corners(void)
@@ -329,6 +353,7 @@ int main(void)
         cmocka_unit_test(of_a_cloud_edited),
         cmocka_unit_test(of_a_box_edited),
         cmocka_unit_test(of_points_edited),
+        cmocka_unit_test(after_a_leap),
         cmocka_unit_test(after_slack),
     };
     return cmocka_run_group_tests_name("caches of " VARIANT, tests, NULL, NULL);

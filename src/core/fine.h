@@ -10,13 +10,24 @@
 /* A corner that v has not met yet is taken in so often. */
 #define FINE_ROUNDS 4
 
-/* They tell the sign, the radii taken off; and where the distance is wanted, that to two roundings of the
- * frame. */
+/* How far from their bodies' own positions the simplex's points lie: no more than the bodies' size, which may be far
+ * below the frame's where points far out are mapped near. */
+static real size_of_points(const search *q)
+{
+    real r = 0;
+    for (int i = 0; i < q->s.n; i++) {
+        const vertex *p = corner(&q->s, i);
+        r = larger(peak(place(&q->d.a, p->x)), larger(peak(place(&q->d.b, p->y)), r));
+    }
+    return r;
+}
+
+/* They tell the sign, the radii taken off; and where the distance is wanted, that to two roundings of the bodies. */
 static int is_fine(const search *q, const goal *g, real lower, real upper)
 {
     real near = g->radius * q->d.scale;
     int told = lower > near + 4 * UNIT * near || (lower > 0 && upper < near - 4 * UNIT * near);
-    return told && (g->sign_only || upper - lower <= 2 * UNIT);
+    return told && (g->sign_only || upper - lower <= 2 * UNIT * smaller(size_of_points(q), 1));
 }
 
 /* The corner in that slot to twice the digits: w rounded once, and what that takes away. */

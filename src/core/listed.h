@@ -166,7 +166,7 @@ static int reopen_listed(search *q, const cache *k)
     q->steps++;
     raise(q, v, p.w);
     q->inside = room(&q->s);
-    return 1;
+    return q->inside > q->d.doubt;
 }
 
 /* From the points of the last query, or from nothing. 0: not all corners can be listed, or there is something wrong.

@@ -157,8 +157,8 @@ static inline vec lost_of_pair(const difference *d, const closest *p)
 static int is_passed_over(const search *q, const closest *p, vec low)
 {
     closest c = last_of(q);
-    real gap = dot(q->v, add(sub(p->w, c.w), sub(low, lost_of_pair(&q->d, &c))));
-    return gap > forgiven(q->s.n) * noise_along(q->v, c.w);
+    vec way = add(sub(p->w, c.w), sub(low, lost_of_pair(&q->d, &c)));
+    return dot(q->v, way) > forgiven(q->s.n) * noise_along(q->v, way);
 }
 
 /* How long w is, to twice the digits, low being what it lost. */
@@ -249,10 +249,13 @@ static void tell_overlap(search *q, const shape *a, const shape *b, enum end end
  * does not survive the way out. */
 static int tell_sign(search *q, const shape *a, const shape *b, enum end end, result *r)
 {
-    r->lower = r->upper = 0;
-    if (end == BEYOND) tell_apart(q, a, b, r);
-    if (end == WITHIN || end == INSIDE) tell_overlap(q, a, b, end, r);
-    return r->lower > 0 || r->upper < 0;
+    if (end == BEYOND) {
+        tell_apart(q, a, b, r);
+        return r->lower > 0;
+    }
+    if (end != WITHIN && end != INSIDE) return 0;
+    tell_overlap(q, a, b, end, r);
+    return r->upper < 0;
 }
 
 #endif
