@@ -84,8 +84,8 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         goal here = scaled(g, q->d.scale);
         end = walked;
         if (end == STILL && !q->repeated && !g->sign_only) q->stuck = is_lower(q);
-        if (end == OPEN && q->steps < g->max_steps) end = search_on(q, &here, upper, weight);
-        else *upper = certify(q, weight);
+        if (end == OPEN && q->steps < g->max_steps) end = descend(q, &here);
+        end = sharpen_on(q, &here, end, upper, weight);
         if (walked != INSIDE && end == INSIDE) q->inside = room(&q->s);
         if (end == INSIDE && q->inside > q->d.doubt) *upper = q->d.doubt - q->inside;
         if (end != FAULT && q->lower <= *upper) return end;

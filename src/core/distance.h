@@ -335,11 +335,10 @@ static enum end descend(search *q, const goal *g)
 /* The bracket of the distance is wider than roundings of its corners explain. */
 static int coarse(const search *q, real upper) { return upper - larger(q->lower, 0) > 4 * q->d.doubt + q->d.slack; }
 
-/* descend, and where v was too coarse to prove what it found, again along the sharpened v; unless that is left to an
- * exact finish. upper and weight are those of the simplex that is left. */
-static enum end search_on(search *q, const goal *g, real *upper, real weight[DIM + 1])
+/* The search ended like that. Where v was too coarse to prove what it found, it goes on along the sharpened v, unless
+ * that is left to an exact finish. upper and weight are those of the simplex that is left. */
+static enum end sharpen_on(search *q, const goal *g, enum end end, real *upper, real weight[DIM + 1])
 {
-    enum end end = descend(q, g);
     *upper = certify(q, weight);
     for (int i = 0; i < SHARPENINGS && end == STILL && coarse(q, *upper) && !g->exact; i++) {
         if (!sharpen(q, weight)) break;
@@ -350,6 +349,11 @@ static enum end search_on(search *q, const goal *g, real *upper, real weight[DIM
         *upper = certify(q, weight);
     }
     return end;
+}
+
+static enum end search_on(search *q, const goal *g, real *upper, real weight[DIM + 1])
+{
+    return sharpen_on(q, g, descend(q, g), upper, weight);
 }
 
 static void blank(search *q)
