@@ -84,17 +84,18 @@ static inline void add_point(spans *sum, const body *k, real sign, vec x)
 /* y is x times a power of two, and no digit of it was lost to underflow. */
 static inline int is_whole(real x, real y) { return x == 0 ? y == 0 : size(y) >= REAL_MIN; }
 
-/* The map and the way between the positions came to the frame without rounding. */
-static int is_body_whole(const body *k, const shape *s)
+/* What the map does to the point came to the frame without rounding, as far as it does anything. */
+static int is_map_whole(const body *k, const shape *s, vec x)
 {
     int r = 1;
-    for (int i = 0; i < DIM * DIM && k->posed && k->size != 0; i++) r &= is_whole(s->pose->m[i], k->m[i]);
+    for (int i = 0; i < DIM * DIM && k->posed; i++) r &= x.c[i % DIM] == 0 || is_whole(s->pose->m[i], k->m[i]);
     return r;
 }
 
-static int is_frame_whole(const difference *d, const shape *a, const shape *b)
+/* So did the way between the positions. */
+static int is_way_whole(const difference *d, const shape *a, const shape *b)
 {
-    int r = !d->wild || (is_body_whole(&d->a, a) && is_body_whole(&d->b, b));
+    int r = 1;
     for (int i = 0; i < DIM; i++) {
         twin c = sum_of(b->pose ? b->pose->p[i] : 0, a->pose ? -a->pose->p[i] : 0);
         r &= is_whole(c.high, d->c.c[i]) && is_whole(c.low, d->c_low.c[i]);
@@ -257,7 +258,9 @@ static int holds_origin(search *q, const shape *a, const shape *b, real weight[D
     spans w[DIM + 1];
     simplex *s = &q->s;
     if (s->n <= DIM && q->vv > q->d.doubt * q->d.doubt) return 0;
-    if (!is_frame_whole(&q->d, a, b)) return 0;
+    if (!is_way_whole(&q->d, a, b)) return 0;
+    for (int i = 0; i < s->n && q->d.wild; i++)
+        if (!is_map_whole(&q->d.a, a, corner(s, i)->x) || !is_map_whole(&q->d.b, b, corner(s, i)->y)) return 0;
     for (int i = 0; i < s->n; i++)
         if (!corner_in_spans(&q->d, corner(s, i), &w[i]) || (s->n <= DIM && is_blurred(&w[i]))) return 0;
     return is_carried(s, w, weight);
