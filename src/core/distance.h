@@ -175,14 +175,15 @@ static twin refine(const search *q, const real weight[DIM + 1])
     return height_to_twice(square_to(&q->s, add(w, w_low)), w, w_low);
 }
 
-/* The height of w, the corner least along v, bounds the separation from below. */
+/* The height of w, the corner least along v, bounds the separation from below. The normal is divided, not multiplied,
+ * so that along an axis it is 1, and taken from 0, which has no sign. */
 static inline void raise(search *q, vec v, vec w)
 {
-    real k = 1 / length(v), height = dot(v, w) * k;
+    real l = length(v), k = 1 / l, height = dot(v, w) * k;
     real lower = height - 5 * UNIT * (size(height) + dot_size(v, w) * k) - q->d.doubt - q->d.slack;
     if (!(lower > q->lower)) return;
     q->lower = lower;
-    q->normal = mul(v, -k);
+    EACH(q->normal.c[i] = 0 - v.c[i] / l);
 }
 
 static int repeats(const vertex *p, const vertex *q)
