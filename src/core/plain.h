@@ -99,7 +99,8 @@ static inline real upper_digits(real x, real size)
 /* A power of two above x. */
 static inline real above(real x) { return 2 / leveler(x); }
 
-/* m (x + low), x times its grain: a part without rounding, and the rest. */
+/* m (x + low), x times its grain: a part without rounding, and the rest. Cheaper than remainder_of, and not as exact,
+ * since no bound depends on it, only the value. */
 static inline void place_in_parts(const body *k, vec x, vec low, vec *upper, vec *rest)
 {
     *upper = x;
