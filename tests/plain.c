@@ -57,7 +57,11 @@ static int open_pair(void)
         }
     }
     q.d.calls = 0;
-    return open_listed(&q, &shapes[0], &shapes[1], NULL);
+    if (!open_listed(&q, &shapes[0], &shapes[1], NULL)) {
+        return 0;
+    }
+    know_offset(&q.d, &shapes[0], &shapes[1]);
+    return 1;
 }
 
 /* Somewhere in the box, times its grain. */

@@ -50,25 +50,21 @@ static vec in_range(vec x)
 }
 
 /* The body's point, x times its grain, in the world, times level; down leads there from the search's frame. */
-static vec in_world(const body *k, const pose *o, vec x, real down, real level)
+HOT vec in_world(const body *k, const pose *o, vec x, real down, real level)
 {
     if (!k->posed) return mul(x, down);
     return add(mul(map(k->m, x), down), mul(load(o->p), level));
 }
 
-static real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
+static inline real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
 
 /* The points x and y of the bodies, times their grain, way apart in the frame, from the cores' to the shapes': each
  * moves toward the other by its radius, or, where the radii reach across, both move to one point between. */
-static void place_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b, int deep)
+static APART void place_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b,
+                               int deep)
 {
     real radius = a->radius + b->radius, far = larger(far_out(a), far_out(b));
     int plain = !q->d.wild && far < PLAIN && radius < PLAIN;
-    if (plain && radius == 0 && (r->upper > 0 || deep)) {
-        store(r->point_a, in_world(&q->d.a, a->pose, x, q->d.unscale, 1));
-        store(r->point_b, in_world(&q->d.b, b->pose, y, q->d.unscale, 1));
-        return;
-    }
     real level = plain ? 1 : level_of(&q->d, radius, far), down = level * q->d.unscale, l = length(way);
     vec on_a = in_world(&q->d.a, a->pose, x, down, level), on_b = in_world(&q->d.b, b->pose, y, down, level);
     if (deep > 1 || (deep && r->upper <= 0)) {
@@ -84,6 +80,17 @@ static void place_points(result *r, const search *q, vec x, vec y, vec way, cons
     }
     store(r->point_a, plain ? on_a : in_range(mul(on_a, 1 / level)));
     store(r->point_b, plain ? on_b : in_range(mul(on_b, 1 / level)));
+}
+
+/* The same of sharp bodies apart, of plain sizes in plain places, as a rule. */
+HOT void place_pair(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b)
+{
+    if (q->d.wild || a->radius + b->radius != 0 || !(r->upper > 0) || !(far_out(a) < PLAIN && far_out(b) < PLAIN)) {
+        place_points(r, q, x, y, way, a, b, 0);
+        return;
+    }
+    store(r->point_a, in_world(&q->d.a, a->pose, x, q->d.unscale, 1));
+    store(r->point_b, in_world(&q->d.b, b->pose, y, q->d.unscale, 1));
 }
 
 /* Those that the weights single out. */

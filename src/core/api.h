@@ -73,6 +73,12 @@ static goal scaled(const goal *g, real scale)
     return r;
 }
 
+/* No length stands in it but 0 and more than any. */
+static inline int is_scale_free(const goal *g)
+{
+    return !g->early && g->radius == 0 && (g->beyond == 0 || g->beyond == REAL_MAX);
+}
+
 /* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation;
  * FAULT also where the bounds cross, which points of two convex sets never do. */
 static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
@@ -81,6 +87,7 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
     int warm = o->cache != NULL;
     enum end end;
     if (walked != FAULT) {
+        settle_rest(&q->d, a, b);
         goal here = scaled(g, q->d.scale);
         end = walked;
         if (end == STILL && !q->repeated && !g->sign_only) q->stuck = is_lower(q);
@@ -357,9 +364,13 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
 {
     q->told = q->d.calls = 0;
     if (o->tight || !(o->slack == 0) || !open_listed(q, a, b, o->cache)) return FAULT;
-    goal here = scaled(g, q->d.scale);
-    enum end end = stroll(q, &here);
-    q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, &here, end, r);
+    goal own;
+    if (!is_scale_free(g)) {
+        own = scaled(g, q->d.scale);
+        g = &own;
+    }
+    enum end end = stroll(q, g);
+    q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
     if (q->told && o->cache) remember(o->cache, q, a, b);
     return end;
 }

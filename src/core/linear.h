@@ -121,7 +121,7 @@ static inline vec unit_size(vec d)
 static inline vec levelled(vec d) { return peak(d) > 0 ? mul(unit_size(d), (real)0.0625) : axis(0, 1); }
 
 /* m x, m by rows. */
-static inline vec map(const real *m, vec x)
+HOT vec map(const real *m, vec x)
 {
     vec r;
     EACH(r.c[i] = dot(load(m + DIM * i), x));
@@ -129,7 +129,7 @@ static inline vec map(const real *m, vec x)
 }
 
 /* The transpose of m, times d: a direction seen from the set's own frame. */
-static inline vec pull(const real *m, vec d)
+HOT vec pull(const real *m, vec d)
 {
     vec r = mul(load(m), d.c[0]);
     REST(r = add(r, mul(load(m + DIM * i), d.c[i])));

@@ -19,9 +19,11 @@ static inline int list_corners(body *k, const shape *s)
         k->list = list_of_cloud(p);
     } else if (s->support == pub(support_box)) {
         const box *b = s->data;
-        if (!b || !sized(b->half, DIM)) return 0;
+        if (!b) return 0;
+        EACH(if (!(b->half[i] >= 0)) return 0);
         k->asked = AS_BOX;
         k->list.reach = at_most(load(b->half));
+        return k->list.reach <= REAL_MAX;
     } else if (s->support == pub(support_segment)) {
         const segment *e = s->data;
         if (!e) return 0;
@@ -40,15 +42,14 @@ static inline int list_corners(body *k, const shape *s)
 }
 
 /* 0: it is not of plain sizes. A number that is none may pass; then no corner has one, and nothing is told. */
-static inline int seize_plain(body *k, const shape *s)
+HOT int seize_plain(body *k, const shape *s)
 {
     k->support = s->support;
     k->data = s->data;
-    k->in = NULL;
-    k->stretch = k->unit = k->lift = 1;
+    k->stretch = 1;
     k->posed = s->pose != NULL;
     if (k->posed) {
-        memcpy(k->m, s->pose->m, sizeof k->m);
+        k->m = s->pose->m;
         k->stretch = stretch(k->m);
     }
     know_reach(k, k->list.reach);
@@ -56,11 +57,9 @@ static inline int seize_plain(body *k, const shape *s)
     return !unruly(k->stretch) && (k->size == 0 || !unruly(k->size)) && s->radius >= 0 && s->radius < PLAIN;
 }
 
-static inline void fit_plain(body *k, real scale)
+HOT void fit_plain(body *k, real scale)
 {
     k->grain = scale;
-    k->ease = larger(leveler(k->stretch), EASE);
-    k->rest = 1;
     k->norm = k->stretch;
 }
 
@@ -68,7 +67,7 @@ static inline void fit_plain(body *k, real scale)
 static int settle_plain(difference *d, const shape *a, const shape *b)
 {
     if (!seize_plain(&d->a, a) || !seize_plain(&d->b, b)) return 0;
-    offset(d, a->pose, b->pose);
+    d->c = offset(a->pose, b->pose);
     real far_a = d->a.stretch * d->a.size, far_b = d->b.stretch * d->b.size, apart = spread(d->c);
     real whole = far_a + far_b + apart;
     if (unruly(whole)) return 0;
@@ -78,11 +77,25 @@ static int settle_plain(difference *d, const shape *a, const shape *b)
     fit_plain(&d->a, d->scale);
     fit_plain(&d->b, d->scale);
     d->c = mul(d->c, d->scale);
-    d->c_low = mul(d->c_low, d->scale);
     d->doubt = doubt_of(d, far_a * d->scale, far_b * d->scale, apart * d->scale);
     d->slack = 0;
     d->wild = d->loose = 0;
     return 1;
+}
+
+/* What is not needed to walk: what rounding took from the offset. */
+static void know_offset(difference *d, const shape *a, const shape *b)
+{
+    if (!d->wild) d->c_low = mul(offset_low(a->pose, b->pose), d->scale);
+}
+
+/* And what else the search needs. */
+static void settle_rest(difference *d, const shape *a, const shape *b)
+{
+    if (d->wild) return;
+    know_offset(d, a, b);
+    d->a.ease = larger(leveler(d->a.stretch), EASE);
+    d->b.ease = larger(leveler(d->b.stretch), EASE);
 }
 
 /* The frame of any sizes, now that the reaches are known. 0: the shapes are none, or beyond all numbers. */
@@ -99,10 +112,10 @@ static APART int settle_listed(difference *d, const shape *a, const shape *b)
 
 /* The body's corner farthest along the frame's direction, of corners that are known to be numbers or are found to be,
  * and within their reach. */
-static inline int farthest_plain(const body *k, vec dir, int trusted, vec *x)
+HOT int farthest_plain(const body *k, vec dir, int trusted, vec *x)
 {
     if (k->posed) dir = pull(k->m, dir);
-    if (!(peak(dir) > 0)) dir = axis(0, 1); /* as levelled has it */
+    if (dir.c[0] == 0 && !(peak(dir) > 0)) dir = axis(0, 1); /* as levelled has it */
     if (k->asked == AS_BOX) {
         *x = corner_of_box(k->data, dir);
         return 1;
@@ -115,7 +128,7 @@ static inline int farthest_plain(const body *k, vec dir, int trusted, vec *x)
 }
 
 /* The corner least along v. */
-static inline int ask_plainly(difference *d, vec v, int trusted, vertex *p)
+HOT int ask_plainly(difference *d, vec v, int trusted, vertex *p)
 {
     d->calls += 2;
     if (!farthest_plain(&d->a, mul(v, -1), trusted, &p->x) || !farthest_plain(&d->b, v, trusted, &p->y)) return 0;
@@ -135,6 +148,27 @@ static int ask_anew(difference *d, vec v, vertex *p)
 
 /* The same, not for the first time. */
 static inline int ask_on(difference *d, vec v, vertex *p) { return d->wild ? ask(d, v, p) : ask_plainly(d, v, 1, p); }
+
+/* Of a long list some corners do at first: FEW, or up to four times as many. */
+#define FEW 16
+static inline int is_long(const body *k) { return k->asked == AS_LIST && k->list.count >= 4 * FEW; }
+
+/* That is one in so many, a power of 4; 1: the list is short. */
+static size_t share_of(const body *k)
+{
+    size_t n = 1;
+    while (is_long(k) && k->list.count / n >= 4 * FEW) n *= 4;
+    return n;
+}
+
+/* One corner in n of a list is left, or more where these would be too few. */
+static void thin_out(body *k, size_t n)
+{
+    size_t share = share_of(k);
+    if (n > share) n = share;
+    k->list.count = (k->list.count + n - 1) / n;
+    k->list.step *= n;
+}
 
 /* x is a corner of the set. */
 static inline int is_corner(const body *k, vec x)

@@ -36,16 +36,17 @@ typedef struct body {
     real unit; /* a power of two: points and reach are the caller's times that */
     real size; /* to a binade or two, if known before any call; 0: all points are 0; else NaN */
     int posed;
-    real m[DIM * DIM]; /* the pose's map; where sizes are wild, once the scale is known, from points of size 1 to the
-                          scaled frame */
-    real stretch;      /* bounds the pose's map */
-    real norm;         /* likewise m */
-    real reach;        /* bounds the set's points, in its unit; 0: not known yet */
-    real limit;        /* no coordinate of a point is above this */
-    real grain;        /* the power of two that the set's points come times: to the frame; where sizes are wild and
-                          there is a pose, to size 1 */
-    real ease, rest;   /* powers of two for directions: to size 1 for m, as far as EASE goes; and the rest of the way */
-    real lift;         /* where sizes are wild: up to the set's size */
+    const real *m; /* the pose's map; where sizes are wild, once the scale is known, from points of size 1 to the
+                      scaled frame: */
+    real fitted[DIM * DIM];
+    real stretch;    /* bounds the pose's map */
+    real norm;       /* likewise m */
+    real reach;      /* bounds the set's points, in its unit; 0: not known yet */
+    real limit;      /* no coordinate of a point is above this */
+    real grain;      /* the power of two that the set's points come times: to the frame; where sizes are wild and
+                        there is a pose, to size 1 */
+    real ease, rest; /* powers of two for directions: to size 1 for m, as far as EASE goes; and the rest of the way */
+    real lift;       /* where sizes are wild: up to the set's size */
 } body;
 
 typedef struct difference {
@@ -113,16 +114,13 @@ static inline int farthest(difference *d, body *k, vec v, vec *x)
     return fits(k, *x);
 }
 
-static inline vec place(const body *k, vec x)
+HOT vec place(const body *k, vec x)
 {
     x = mul(x, k->grain);
     return k->posed ? map(k->m, x) : x;
 }
 
-static inline vec corner_of(const difference *d, vec x, vec y)
-{
-    return sub(place(&d->a, x), add(place(&d->b, y), d->c));
-}
+HOT vec corner_of(const difference *d, vec x, vec y) { return sub(place(&d->a, x), add(place(&d->b, y), d->c)); }
 
 /* Adds sign times the body's point x, to twice the digits; x is times its grain, with what rounding took. */
 static inline void gather_point(twin sum[DIM], const body *k, real sign, vec x, vec low)
@@ -211,7 +209,7 @@ static void seize(body *k, const shape *s)
     k->stretch = k->grain = k->ease = k->rest = k->lift = 1;
     k->posed = s->pose != NULL;
     if (!k->posed) return;
-    memcpy(k->m, s->pose->m, sizeof k->m);
+    k->m = s->pose->m;
     k->stretch = stretch(k->m);
 }
 
@@ -232,7 +230,8 @@ static APART void fit_wild(body *k, real scale)
     real level = leveler(k->reach);
     int e = exponent_of(scale) - exponent_of(k->unit) - exponent_of(level);
     k->grain = k->posed ? level : scale / k->unit;
-    for (int i = 0; i < DIM * DIM && k->posed; i++) k->m[i] = k->size == 0 ? 0 : raised(k->m[i], e);
+    for (int i = 0; i < DIM * DIM && k->posed; i++) k->fitted[i] = k->size == 0 ? 0 : raised(k->m[i], e);
+    k->m = k->fitted;
     k->norm = k->posed ? larger(stretch(k->m), REAL_MIN) : 1;
     k->ease = leveler(k->norm);
     k->lift = k->in ? 1 : lifting(level);
@@ -288,13 +287,20 @@ static int settle(difference *d, real slack)
 }
 
 /* From A's position to B's, in the caller's unit. */
-static inline void offset(difference *d, const pose *a, const pose *b)
+HOT vec offset(const pose *a, const pose *b)
 {
-    for (int i = 0; i < DIM; i++) {
-        twin c = sum_of(b ? b->p[i] : 0, a ? -a->p[i] : 0);
-        d->c.c[i] = c.high;
-        d->c_low.c[i] = c.low;
-    }
+    vec from = axis(0, 0), to = axis(0, 0);
+    if (a) from = load(a->p);
+    if (b) to = load(b->p);
+    return sub(to, from);
+}
+
+/* What rounding took from it. */
+static vec offset_low(const pose *a, const pose *b)
+{
+    vec r;
+    for (int i = 0; i < DIM; i++) r.c[i] = sum_of(b ? b->p[i] : 0, a ? -a->p[i] : 0).low;
+    return r;
 }
 
 /* 0 where a map is too large for its norm to be a number. */
@@ -302,7 +308,8 @@ static int start(difference *d, const shape *a, const shape *b)
 {
     seize(&d->a, a);
     seize(&d->b, b);
-    offset(d, a->pose, b->pose);
+    d->c = offset(a->pose, b->pose);
+    d->c_low = offset_low(a->pose, b->pose);
     d->scale = 1;
     d->wild = !is_tame(&d->a) || !is_tame(&d->b); /* until known better */
     if (d->wild) {
@@ -317,6 +324,7 @@ static int start(difference *d, const shape *a, const shape *b)
 static vec first_direction(const difference *d)
 {
     real far = peak(d->c);
+    if (far > EASE && far < 1 / EASE) return mul(d->c, -1); /* it is of a good size */
     return far > 0 && bounded(far) ? mul(unit_size(d->c), -1) : axis(0, 1);
 }
 

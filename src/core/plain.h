@@ -56,11 +56,40 @@ static inline int is_proven_beyond(search *q, real height, real beyond)
     return 0;
 }
 
+/* Most of what a step costs is asking. */
+static inline int is_long_way(const difference *d) { return !d->wild && (is_long(&d->a) || is_long(&d->b)); }
+
+/* A step of an approach. 0: v would not come near by half. */
+static int come_near(search *q, int max_steps)
+{
+    if (q->steps >= max_steps || !ask_on(&q->d, q->v, spare(&q->s))) return 0;
+    q->steps++;
+    q->repeated = 0;
+    return !is_repeated(q) && dot(q->v, spare(&q->s)->w) < q->vv / 2 && step_plainly(q);
+}
+
+/* Walks among few corners of long lists, then among more of them, while that brings v much nearer. It tells nothing of
+ * the corners left out, so no bound comes of it; those taken in are good. */
+static APART void approach(search *q, const goal *g)
+{
+    list a = q->d.a.list, b = q->d.b.list;
+    size_t in_a = share_of(&q->d.a), in_b = share_of(&q->d.b);
+    for (size_t n = in_a > in_b ? in_a : in_b; n > 1 && q->s.n <= DIM; n /= 4) {
+        thin_out(&q->d.a, n);
+        thin_out(&q->d.b, n);
+        while (q->s.n <= DIM && come_near(q, g->max_steps)) continue;
+        q->repeated = 0;
+        q->d.a.list = a;
+        q->d.b.list = b;
+    }
+}
+
 /* Walks like descend, from the corner in the spare slot, and ends as it does, but for what was stuck. OPEN, with steps
  * left: something is out of the ordinary with that corner, which is not taken in and not counted. */
 static enum end stroll(search *q, const goal *g)
 {
     int tolerant = g->abs_tol > 0 || g->rel_tol > 0;
+    int fresh = q->s.n == 0;
     int sought = g->beyond < 4;      /* in the frame nothing is farther apart */
     if (q->s.n > DIM) return INSIDE; /* the last query's simplex */
     for (;;) {
@@ -76,11 +105,18 @@ static enum end stroll(search *q, const goal *g)
         q->steps++;
         if (q->s.n > DIM) end = INSIDE;
         else if (end == OPEN && g->early) end = judge(q, g);
-        if (end != OPEN) {
+        if (end == BEYOND) return end;
+        if (end != OPEN || q->steps >= g->max_steps) {
             raise(q, v, last->w);
             return end;
         }
-        if (q->steps >= g->max_steps) return OPEN;
+        if (fresh && is_long_way(&q->d)) {
+            raise(q, v, last->w);
+            approach(q, g);
+            if (q->s.n > DIM) return INSIDE;
+            if (q->steps >= g->max_steps) return OPEN;
+        }
+        fresh = 0;
         if (!ask_on(&q->d, q->v, spare(&q->s))) return FAULT;
     }
 }
@@ -97,7 +133,14 @@ static inline real upper_digits(real x, real size)
 }
 
 /* A power of two above x. */
-static inline real above(real x) { return 2 / leveler(x); }
+static inline real above(real x)
+{
+    bits e;
+    memcpy(&e, &x, sizeof e);
+    e = ((e >> MANTISSA) + 1) << MANTISSA;
+    memcpy(&x, &e, sizeof x);
+    return x;
+}
 
 /* m (x + low), x times its grain: a part without rounding, and the rest. Cheaper than remainder_of, and not as exact,
  * since no bound depends on it, only the value. */
@@ -173,10 +216,10 @@ static inline twin length_to_twice(vec w, vec low)
 }
 
 /* What the bounds and the pair tell; upper is of the cores. */
-static void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, result *r)
+static inline void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, result *r)
 {
     bracket(r, &q->d, q->lower, upper, a, b);
-    place_points(r, q, p->x, p->y, p->w, a, b, 0);
+    place_pair(r, q, p->x, p->y, p->w, a, b);
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;
@@ -217,6 +260,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
     closest p = pair_of(q, weight);
     real upper = length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
     if (!is_evident(q, g, end, &p, upper)) return 0;
+    know_offset(&q->d, a, b);
     vec low = lost_of_pair(&q->d, &p);
     if (end == STILL && !q->repeated && is_passed_over(q, &p, low)) return 0;
     if (end == STILL && g->deep) point_along(q, add(p.w, low));

@@ -62,6 +62,13 @@ typedef uint32_t bits;
 #define APART
 #endif
 
+/* Taken into each of its callers, however many: a call would cost more than it does. */
+#if defined(__GNUC__) || defined(__clang__)
+#define HOT static inline __attribute__((always_inline))
+#else
+#define HOT static inline
+#endif
+
 /* Unit roundoff: a rounded result is off by this share at most. */
 #define UNIT ((real)1 / (real)((bits)2 << MANTISSA))
 /* The least number above 0. */

@@ -43,10 +43,10 @@ static int sized(const real *sizes, int n)
 
 /* A reach: r, with up to 7 relative roundings, and some that underflow where r does; the least number for a set of no
  * size, which rounds nothing. */
-static real padded(real r) { return r > 0 ? r * (1 + 8 * UNIT) + (r < REAL_MIN ? 4 * TINY : 0) : TINY; }
+static inline real padded(real r) { return r > 0 ? r * (1 + 8 * UNIT) + (r < REAL_MIN ? 4 * TINY : 0) : TINY; }
 
 /* A bound on the length, tight for the cube and along the axes, without square roots, safe from overflow in between. */
-static real at_most(vec a)
+static inline real at_most(vec a)
 {
     real box_diagonal = (real)(DIM == 2 ? 1.4142136 : 1.7320509) * peak(a);
     return padded(smaller(spread(a), box_diagonal));
@@ -106,27 +106,66 @@ static size_t settle_tie(const real *v, size_t n, size_t step, real reach, vec d
     return best;
 }
 
+/* The highest of the points so far, the first among equals, and the height of the next one. */
+typedef struct summit {
+    real highest, second;
+    size_t at;
+} summit;
+
+static inline summit see(summit s, real height, size_t at)
+{
+    if (height > s.highest) return (summit){height, s.highest, at};
+    s.second = larger(height, s.second);
+    return s;
+}
+
+/* Of almost equals the others are asked, too. */
+static inline size_t settle_summit(const real *v, size_t n, size_t step, real reach, vec d, summit s)
+{
+    real almost = s.highest - 8 * UNIT * reach * spread(d);
+    return s.second >= almost ? settle_tie(v, n, step, reach, d, s.at, almost) : s.at;
+}
+
+/* Many points are looked at in runs, with one choice for all of a run; then the highest run closer. */
+#define RUN 4
+#define MANY (8 * RUN)
+static APART size_t farthest_of_many(const real *v, size_t n, size_t step, real reach, vec d)
+{
+    summit s = {-REAL_MAX, -REAL_MAX, 0};
+    real sum = 0;
+    size_t i = 0;
+    const real *x = v;
+    for (; i + RUN <= n; i += RUN, x += RUN * step) {
+        real p = dot(load(x), d), q = dot(load(x + step), d);
+        real r = dot(load(x + 2 * step), d), t = dot(load(x + 3 * step), d);
+        sum += (p + q) * 0 + (r + t) * 0;
+        s = see(s, larger(larger(p, q), larger(r, t)), i);
+    }
+    for (; i < n; i++, x += step) {
+        sum += dot(load(x), d) * 0;
+        s = see(s, dot(load(x), d), i);
+    }
+    if (!(sum == 0)) return n;
+    summit closer = {-REAL_MAX, -REAL_MAX, s.at};
+    for (i = s.at; i < n && i < s.at + RUN; i++) closer = see(closer, dot(load(v + i * step), d), i);
+    closer.second = larger(closer.second, s.second);
+    return settle_summit(v, n, step, reach, d, closer);
+}
+
 /* Farthest of n points, the first among equals; unless they are trusted, n if one is not finite. The sum of height * 0
  * is 0 only if every height, and with it every point, is. The rounding of two heights, 3 each, is within the licence
  * of 8. */
 static inline size_t farthest_among(const real *v, size_t n, size_t step, real reach, vec d, int trusted)
 {
-    real highest = dot(load(v), d), second = -REAL_MAX, sum = trusted ? 0 : highest * 0;
-    size_t best = 0;
+    if (n >= MANY) return farthest_of_many(v, n, step, reach, d);
+    summit s = {dot(load(v), d), -REAL_MAX, 0};
+    real sum = trusted ? 0 : s.highest * 0;
     for (size_t i = 1; i < n; i++) {
         real height = dot(load(v + i * step), d);
         if (!trusted) sum += height * 0;
-        if (height > highest) {
-            second = highest;
-            highest = height;
-            best = i;
-        } else {
-            second = larger(height, second);
-        }
+        s = see(s, height, i);
     }
-    if (!(sum == 0)) return n;
-    real almost = highest - 8 * UNIT * reach * spread(d);
-    return second >= almost ? settle_tie(v, n, step, reach, d, best, almost) : best;
+    return sum == 0 ? settle_summit(v, n, step, reach, d, s) : n;
 }
 
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
