@@ -66,16 +66,34 @@ static inline real gain(vec p, vec e)
     return t > 0 ? t * (t / dot(e, e)) : 0;
 }
 
-static inline vec nearest_on_edge(const simplex *s, int i, int j, unsigned *mask)
+/* The simplex's point nearest the origin, which corners carry it, and their weights, by corner. */
+typedef struct footing {
+    vec v;
+    unsigned mask;
+    real weight[DIM + 1];
+} footing;
+
+static inline void nearest_on_edge(const simplex *s, int i, int j, footing *f)
 {
     real weight[2];
-    vec v;
-    if (edge(point(s, i), point(s, j), 0, &v, weight)) {
-        *mask = 1u << i | 1u << j;
-        return v;
+    if (edge(point(s, i), point(s, j), 0, &f->v, weight)) {
+        f->mask = 1u << i | 1u << j;
+        f->weight[i] = weight[0];
+        f->weight[j] = weight[1];
+        return;
     }
-    *mask = 1u << j;
-    return point(s, j);
+    f->v = point(s, j);
+    f->mask = 1u << j;
+    f->weight[j] = 1;
+}
+
+/* Leaves the corners that carry it, with their weights. */
+static inline void stand_on(simplex *s, const footing *f, real weight[DIM + 1])
+{
+    int n = 0;
+    for (int i = 0; i < s->n; i++)
+        if (f->mask >> i & 1) weight[n++] = f->weight[i];
+    keep(s, f->mask);
 }
 
 #endif

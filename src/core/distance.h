@@ -45,13 +45,15 @@ typedef struct search {
     difference d;
     simplex s;
     vec v;
-    real vv;       /* v.v; REAL_MAX before there is a simplex */
-    real lower;    /* of the signed separation */
-    vec normal;    /* unit, from A to B: where lower was found */
-    int pending;   /* s's spare slot holds a corner that was asked for and not taken in */
-    int repeated;  /* because it stood in the simplex already */
-    int stuck;     /* because it brought v no nearer, although it lies lower along v */
-    real inside;   /* room in a full simplex, where that has been told */
+    real vv;      /* v.v; REAL_MAX before there is a simplex */
+    real lower;   /* of the signed separation */
+    vec normal;   /* unit, from A to B: where lower was found */
+    int pending;  /* s's spare slot holds a corner that was asked for and not taken in */
+    int repeated; /* because it stood in the simplex already */
+    int stuck;    /* because it brought v no nearer, although it lies lower along v */
+    real inside;  /* room in a full simplex, where that has been told */
+    int weighed;  /* the walk has left the corners' weights here: */
+    real weight[DIM + 1];
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
     int fine;            /* the bounds are those of corners known to twice the digits, and carry no doubt */
@@ -201,7 +203,8 @@ static inline int advance(search *q)
     memcpy(at, s->at, sizeof at);
     q->borrowed &= ~(1u << at[n]);
     s->n = n + 1;
-    vec v = nearest(s);
+    real weight[DIM + 1];
+    vec v = nearest(s, weight);
     real vv = dot(v, v);
     if (!(vv < q->vv)) { /* once more without assumptions */
         /* of corners in a frame of size 1 to 2; a v as small as that itself has nothing to gain */
@@ -227,8 +230,8 @@ static inline int advance(search *q)
  * have put it there, gives way to the face that the origin is nearest to: it does not count as a whole. */
 static void project(search *q, int whole)
 {
-    real weight[DIM + 1];
-    if (!whole || !part(&q->s, (1u << q->s.n) - 1, 0, &q->v, weight)) q->v = nearest_of_all(&q->s, 0, whole, 0);
+    q->weighed = whole && part(&q->s, (1u << q->s.n) - 1, 0, &q->v, q->weight);
+    if (!q->weighed) q->v = nearest_of_all(&q->s, 0, whole, 0);
     q->vv = dot(q->v, q->v);
 }
 
@@ -372,6 +375,7 @@ static void blank(search *q)
     q->borrowed = 0;
     q->fine = 0;
     q->kept = 0;
+    q->weighed = 0;
 }
 
 /* A direction along which the simplex's first corner is likely the least: v, tilted away from the others. */

@@ -26,12 +26,14 @@ static inline int step_plainly(search *q)
     int at[DIM + 1], n = s->n;
     memcpy(at, s->at, sizeof at);
     s->n = n + 1;
-    vec v = nearest(s);
+    vec v = nearest(s, q->weight);
     real vv = dot(v, v);
-    if (s->n > DIM) q->inside = room(s);
+    q->weighed = 1;
+    if (s->n > DIM) q->inside = room_inside(q);
     if (s->n > DIM ? !(q->inside > q->d.doubt) : !(vv < q->vv && vv > UNIT * UNIT / 4)) {
         memcpy(s->at, at, sizeof at);
         s->n = n;
+        q->weighed = 0;
         return 0;
     }
     q->borrowed &= ~(1u << at[n]);
@@ -167,10 +169,17 @@ typedef struct closest {
     vec x, x_low, y, y_low, w;
 } closest;
 
-static inline closest pair_of(const search *q, const real weight[DIM + 1])
+static inline closest pair_of(const search *q)
 {
     const difference *d = &q->d;
     closest p;
+    real weight[DIM + 1];
+    if (q->weighed) {
+        memcpy(weight, q->weight, sizeof weight);
+        normalize(weight, q->s.n);
+    } else {
+        weigh(&q->s, weight);
+    }
     p.x = fine_blend(&q->s, weight, offsetof(vertex, x), d->a.grain, &p.x_low);
     p.y = fine_blend(&q->s, weight, offsetof(vertex, y), d->b.grain, &p.y_low);
     p.w = sub(d->a.posed ? map(d->a.m, p.x) : p.x, add(d->b.posed ? map(d->b.m, p.y) : p.y, d->c));
@@ -249,15 +258,27 @@ static void point_along(search *q, vec way)
     q->lower = lower;
 }
 
+/* The cores overlap, or the radii do. */
+static void tell_overlap(search *q, const shape *a, const shape *b, enum end end, result *r)
+{
+    closest p = pair_of(q);
+    real upper = end == INSIDE ? q->d.doubt - q->inside : length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
+    spell(q, a, b, upper, &p, r);
+    if (end == INSIDE && !(peak(p.w) <= 8 * UNIT)) r->upper = 0; /* the pair is none */
+}
+
 /* The distance, where the walk has found it. 0: it is no more than rounding blurs, or the weights are not good enough.
  */
 static int tell_distance(search *q, const shape *a, const shape *b, const goal *g, enum end end, result *r)
 {
-    real weight[DIM + 1];
-    if (end == OPEN || end == INSIDE || end == FAULT) return 0;
+    if (end == OPEN || end == FAULT || (end == INSIDE && g->deep)) return 0;
+    if (end == INSIDE) {
+        tell_overlap(q, a, b, end, r);
+        r->value = 0;
+        return r->upper < 0;
+    }
     if (end == BEYOND && q->s.n == 0) step_plainly(q);
-    weigh(&q->s, weight);
-    closest p = pair_of(q, weight);
+    closest p = pair_of(q);
     real upper = length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
     if (!is_evident(q, g, end, &p, upper)) return 0;
     know_offset(&q->d, a, b);
@@ -277,17 +298,6 @@ static void tell_apart(search *q, const shape *a, const shape *b, result *r)
     spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, r);
     if (!(r->lower > 0) && q->s.n == 0) step_plainly(q);
     q->pending = q->s.n == 0;
-}
-
-/* The cores overlap, or the radii do. */
-static void tell_overlap(search *q, const shape *a, const shape *b, enum end end, result *r)
-{
-    real weight[DIM + 1];
-    weigh(&q->s, weight);
-    closest p = pair_of(q, weight);
-    real upper = end == INSIDE ? q->d.doubt - q->inside : length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
-    spell(q, a, b, upper, &p, r);
-    if (end == INSIDE && !(peak(p.w) <= 8 * UNIT)) r->upper = 0; /* the pair is none */
 }
 
 /* Whether they meet, where the walk has found it. 0: it has not, or the weights are not good enough, or what is proven

@@ -2,11 +2,13 @@
 /* A simplex of the difference A - B and its point nearest the origin.
  *
  * simplex2.h and simplex3.h give, each for its dimension:
- *   nearest     drops the corners that do not carry the nearest point; the newest corner is known to carry it
+ *   nearest     drops the corners that do not carry the nearest point, and weighs the others; the newest corner is
+ *               known to carry it
  *   part        the nearest point of one part of the simplex and its weights, if it is in that part's interior
  *   square_to   what of a vector is square to all edges
  *   change      of the weights, when the point that they single out moves
  *   room        a full simplex: how far the origin is inside, after rounding; not above 0 where that is not certain
+ *   rough_room  the same, by the weights with which it holds the origin: cheaper, and less where it is narrow
  * The nearest point of a face (2-D: of an edge) comes from its normal, v = n (n.p) / (n.n), not from a weighted sum of
  * corners: that sum's rounding error stops the search on the wrong face once the gap is small. */
 #ifndef GJK_CORE_SIMPLEX_H

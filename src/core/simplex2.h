@@ -33,23 +33,22 @@ static int part(const simplex *s, unsigned mask, real leeway, vec *v, real weigh
 }
 
 /* The newest corner p is in the answer: three weights decide for the triangle, else the better edge at p. */
-static vec nearest_of(const simplex *s, unsigned *mask)
+static void nearest_on_triangle(const simplex *s, footing *f)
 {
-    real weight[3];
-    if (s->n == 1) return point(s, 0);
-    if (s->n == 2) return nearest_on_edge(s, 0, 1, mask);
-    *mask = 7;
-    if (holds(s, weight)) return axis(0, 0);
+    f->v = axis(0, 0);
+    f->mask = 7;
+    if (holds(s, f->weight)) return;
     vec p = point(s, 2);
-    return nearest_on_edge(s, gain(p, sub(point(s, 1), p)) > gain(p, sub(point(s, 0), p)), 2, mask);
+    nearest_on_edge(s, gain(p, sub(point(s, 1), p)) > gain(p, sub(point(s, 0), p)), 2, f);
 }
 
-static vec nearest(simplex *s)
+static vec nearest(simplex *s, real weight[3])
 {
-    unsigned mask = 1;
-    vec v = nearest_of(s, &mask);
-    keep(s, mask);
-    return v;
+    footing f = {point(s, 0), 1, {1}};
+    if (s->n == 2) nearest_on_edge(s, 0, 1, &f);
+    if (s->n == 3) nearest_on_triangle(s, &f);
+    stand_on(s, &f, weight);
+    return f.v;
 }
 
 static vec square_to(const simplex *s, vec v)
@@ -70,6 +69,15 @@ static void change(const simplex *s, vec way, real weight[3])
         weight[1] = dot(way, a) / dot(a, a);
     }
     weight[0] = -weight[1] - weight[2];
+}
+
+static inline real rough_room(const simplex *s, const real weight[3])
+{
+    vec p = point(s, 0), q = point(s, 1), r = point(s, 2);
+    real far = larger(dot(p, p), larger(dot(q, q), dot(r, r))), doubt = 4 * UNIT * far;
+    real least = (weight[0] - doubt) / length(sub(r, q));
+    least = smaller((weight[1] - doubt) / length(sub(p, r)), least);
+    return smaller((weight[2] - doubt) / length(sub(q, p)), least) * (1 - 8 * UNIT);
 }
 
 static real room(const simplex *s)

@@ -108,49 +108,53 @@ static int part(const simplex *s, unsigned mask, real leeway, vec *v, real weigh
 }
 
 /* Corner k is in the answer: the face, else the better of its two edges there. */
-static inline vec nearest_on_face(const simplex *s, int i, int j, int k, unsigned *mask)
+static inline void nearest_on_face(const simplex *s, int i, int j, int k, footing *f)
 {
     real weight[3];
-    vec v, p = point(s, k);
-    if (face(p, point(s, i), point(s, j), 0, &v, weight)) {
-        *mask = 1u << i | 1u << j | 1u << k;
-        return v;
+    vec p = point(s, k);
+    if (face(p, point(s, i), point(s, j), 0, &f->v, weight)) {
+        f->mask = 1u << i | 1u << j | 1u << k;
+        f->weight[k] = weight[0];
+        f->weight[i] = weight[1];
+        f->weight[j] = weight[2];
+        return;
     }
-    return nearest_on_edge(s, gain(p, sub(point(s, j), p)) > gain(p, sub(point(s, i), p)) ? j : i, k, mask);
+    nearest_on_edge(s, gain(p, sub(point(s, j), p)) > gain(p, sub(point(s, i), p)) ? j : i, k, f);
 }
 
 /* The newest corner is in the answer: the origin is inside, or nearest to one of the three faces there that it sees. */
-static vec nearest_on_faces(const simplex *s, unsigned *mask)
+static void nearest_on_faces(const simplex *s, footing *f)
 {
     static const int opposite[3][2] = {{1, 2}, {2, 0}, {0, 1}};
     real weight[4], least = REAL_MAX;
-    vec v = axis(0, 0);
-    *mask = 15;
-    if (holds(s, weight)) return v;
+    footing two[2];
+    int next = 0, found = 0;
+    f->v = axis(0, 0);
+    f->mask = 15;
+    if (holds(s, f->weight)) return;
+    EACH(weight[i] = f->weight[i]);
     for (int i = 0; i < 3; i++) {
-        unsigned kept;
         if (weight[i] > 0) continue;
-        vec p = nearest_on_face(s, opposite[i][0], opposite[i][1], 3, &kept);
-        real d = dot(p, p);
+        nearest_on_face(s, opposite[i][0], opposite[i][1], 3, &two[next]);
+        real d = dot(two[next].v, two[next].v);
         if (d < least) {
             least = d;
-            v = p;
-            *mask = kept;
+            next = !next;
+            found = 1;
         }
     }
-    if (*mask == 15) return nearest_on_face(s, 0, 1, 2, mask); /* only rounding sends us here */
-    return v;
+    if (found) *f = two[!next];
+    else nearest_on_face(s, 0, 1, 2, f); /* only rounding sends us here */
 }
 
-static vec nearest(simplex *s)
+static vec nearest(simplex *s, real weight[4])
 {
-    unsigned mask = 1;
-    vec v = point(s, 0);
-    if (s->n == 2) v = nearest_on_edge(s, 0, 1, &mask);
-    if (s->n == 3) v = nearest_on_face(s, 0, 1, 2, &mask);
-    if (s->n == 4) v = nearest_on_faces(s, &mask);
-    keep(s, mask);
-    return v;
+    footing f = {point(s, 0), 1, {1}};
+    if (s->n == 2) nearest_on_edge(s, 0, 1, &f);
+    if (s->n == 3) nearest_on_face(s, 0, 1, 2, &f);
+    if (s->n == 4) nearest_on_faces(s, &f);
+    stand_on(s, &f, weight);
+    return f.v;
 }
 
 /* For a narrow triangle its longer side stands in. */
@@ -179,6 +183,20 @@ static void change(const simplex *s, vec way, real weight[4])
         weight[t.aa < t.bb ? 2 : 1] = t.aa < t.bb ? dot(way, t.b) / t.bb : dot(way, t.a) / t.aa;
     }
     weight[0] = -weight[1] - weight[2] - weight[3];
+}
+
+/* docs/bounds.md has the two doubts. */
+static inline real rough_room(const simplex *s, const real weight[4])
+{
+    vec p = point(s, 3), a = sub(point(s, 0), p), b = sub(point(s, 1), p), c = sub(point(s, 2), p);
+    vec bc = cross(b, c), ca = cross(c, a), ab = cross(a, b), last = add(add(bc, ca), ab);
+    real far = dot(p, p);
+    for (int i = 0; i < 3; i++) far = larger(dot(point(s, i), point(s, i)), far);
+    real doubt = 64 * UNIT * far * root(far), more = 128 * UNIT * far;
+    real least = (weight[0] - doubt) / (length(bc) + more);
+    least = smaller((weight[1] - doubt) / (length(ca) + more), least);
+    least = smaller((weight[2] - doubt) / (length(ab) + more), least);
+    return smaller((weight[3] - doubt) / (length(last) + more), least) * (1 - 8 * UNIT);
 }
 
 static real room(const simplex *s)
