@@ -148,9 +148,79 @@ static void the_length(void **state)
     assert_true(worst <= 128 && worst > 0); /* low has 4u, its square over twice the least length 80 u^2 */
 }
 
+static quad coordinate(int corner, int i) { return (quad)q.s.slot[corner].w.c[i]; }
+
+/* How far the origin is from the plane of the facet opposite that corner, on its side; squared, with that sign. */
+static quad height_over(int corner)
+{
+    quad to[DIM + 1][DIM], n[DIM], size = 0, height = 0, side = 0, h;
+    int at = 0, first = corner == 0 ? 1 : 0;
+    for (int k = 0; k <= DIM; k++) {
+        for (int i = 0; i < DIM && k != corner && k != first; i++) {
+            to[at][i] = coordinate(k, i) - coordinate(first, i);
+        }
+        at += k != corner && k != first;
+    }
+#if DIM == 2
+    n[0] = -to[0][1];
+    n[1] = to[0][0];
+#else
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = to[0][j] * to[1][k] - to[0][k] * to[1][j];
+    }
+#endif
+    for (int i = 0; i < DIM; i++) {
+        size += n[i] * n[i];
+        height -= n[i] * coordinate(first, i);
+        side += n[i] * (coordinate(corner, i) - coordinate(first, i));
+    }
+    h = height * height / size;
+    return (height < 0) == (side < 0) ? h : -h;
+}
+
+/* Simplices that hold the origin, narrow by any power of two, the origin near a facet or a corner. */
+static int draw_simplex(void)
+{
+    double narrow = ldexp(1, -(int)any_between(0, MANTISSA)), low = ldexp(1, -(int)any_between(0, MANTISSA + 2));
+    clear(&q.s);
+    q.s.n = DIM + 1;
+    for (int k = 0; k <= DIM; k++) {
+        for (int i = 0; i < DIM; i++) {
+            q.s.slot[k].w.c[i] = any_real(-1, 1);
+        }
+        q.s.slot[k].w.c[DIM - 1] *= (real)(k == 0 ? 1 : low);
+        q.s.slot[k].w.c[0] *= (real)narrow;
+    }
+    return holds(&q.s, q.weight);
+}
+
+/* Room is less than there is. */
+static void rough_rooms(void **state)
+{
+    int held = 0, above = 0;
+    (void)state;
+    state_of_draws = 1;
+    for (int k = 0; k < 50 * PAIRS; k++) {
+        real rough;
+        if (!draw_simplex()) {
+            continue;
+        }
+        held++;
+        rough = rough_room(&q.s, q.weight);
+        for (int i = 0; i <= DIM && rough > 0; i++) {
+            assert_true((quad)rough * (quad)rough <= height_over(i));
+        }
+        above += rough > 0;
+    }
+    printf("%d simplices hold the origin, %d with room\n", held, above);
+    assert_true(above > held / 4 && above < held);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rough_rooms),
         cmocka_unit_test(what_rounding_took),
         cmocka_unit_test(the_length),
     };

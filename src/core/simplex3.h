@@ -185,18 +185,17 @@ static void change(const simplex *s, vec way, real weight[4])
     weight[0] = -weight[1] - weight[2] - weight[3];
 }
 
-/* docs/bounds.md has the two doubts. */
 static inline real rough_room(const simplex *s, const real weight[4])
 {
     vec p = point(s, 3), a = sub(point(s, 0), p), b = sub(point(s, 1), p), c = sub(point(s, 2), p);
     vec bc = cross(b, c), ca = cross(c, a), ab = cross(a, b), last = add(add(bc, ca), ab);
     real far = dot(p, p);
     for (int i = 0; i < 3; i++) far = larger(dot(point(s, i), point(s, i)), far);
-    real doubt = 64 * UNIT * far * root(far), more = 128 * UNIT * far;
-    real least = (weight[0] - doubt) / (length(bc) + more);
-    least = smaller((weight[1] - doubt) / (length(ca) + more), least);
-    least = smaller((weight[2] - doubt) / (length(ab) + more), least);
-    return smaller((weight[3] - doubt) / (length(last) + more), least) * (1 - 8 * UNIT);
+    real doubt = 128 * UNIT * far * root(far); /* docs/bounds.md */
+    real least = (weight[0] - doubt) / length(bc);
+    least = smaller((weight[1] - doubt) / length(ca), least);
+    least = smaller((weight[2] - doubt) / length(ab), least);
+    return smaller((weight[3] - doubt) / length(last), least) * (1 - 8 * UNIT);
 }
 
 static real room(const simplex *s)
