@@ -214,7 +214,7 @@ static void rough_rooms(void **state)
         above += rough > 0;
     }
     printf("%d simplices hold the origin, %d with room\n", held, above);
-    assert_true(above > held / 4 && above < held);
+    assert_true(above > held / 8 && above < held);
 }
 
 int main(void)
