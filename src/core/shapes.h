@@ -87,14 +87,26 @@ GJK_API real pub(points_reach)(const points *p)
     return padded(root(sum) / level);
 }
 
+/* Many points are looked at in runs: how high the highest of a run is; and the sum of these heights. */
+#define RUN 4
+#define MANY (8 * RUN)
+static inline real highest_in_run(const real *x, size_t step, vec d, real *sum)
+{
+    real p = dot(load(x), d), q = dot(load(x + step), d);
+    real r = dot(load(x + 2 * step), d), s = dot(load(x + 3 * step), d);
+    *sum = (p + q) + (r + s);
+    return larger(larger(p, q), larger(r, s));
+}
+
 /* A point that is higher than the best one, if there is any among those of almost its height: of points that lie close
  * together far from their origin, their differences tell. A rise of which rounding leaves even the sign open counts
  * where it can't be wrong by more than 2 units of the reach, which heights leave of the licence. */
 static size_t settle_tie(const real *v, size_t n, size_t step, real reach, vec d, size_t best, real almost)
 {
     vec top = load(v + best * step);
-    real highest = 0, leave = 2 * UNIT * reach * peak(d);
+    real highest = 0, leave = 2 * UNIT * reach * peak(d), sum;
     for (size_t i = 0; i < n; i++) {
+        while (n >= MANY && i + RUN < n && highest_in_run(v + i * step, step, d, &sum) < almost) i += RUN;
         vec x = load(v + i * step);
         if (!(dot(x, d) >= almost)) continue;
         vec e = sub(x, top);
@@ -126,38 +138,46 @@ static inline size_t settle_summit(const real *v, size_t n, size_t step, real re
     return s.second >= almost ? settle_tie(v, n, step, reach, d, s.at, almost) : s.at;
 }
 
-/* Many points are looked at in runs, with one choice for all of a run; then the highest run closer. */
-#define RUN 4
-#define MANY (8 * RUN)
-static APART size_t farthest_of_many(const real *v, size_t n, size_t step, real reach, vec d)
+/* With one choice for all of a run; then the highest run is looked at closer. The sum of heights * 0 is 0 only if every
+ * height, and with it every point, is finite. */
+static inline size_t farthest_in_runs(const real *v, size_t n, size_t step, real reach, vec d, int trusted)
 {
     summit s = {-REAL_MAX, -REAL_MAX, 0};
-    real sum = 0;
+    real none = 0, sum;
     size_t i = 0;
     const real *x = v;
     for (; i + RUN <= n; i += RUN, x += RUN * step) {
-        real p = dot(load(x), d), q = dot(load(x + step), d);
-        real r = dot(load(x + 2 * step), d), t = dot(load(x + 3 * step), d);
-        sum += (p + q) * 0 + (r + t) * 0;
-        s = see(s, larger(larger(p, q), larger(r, t)), i);
+        s = see(s, highest_in_run(x, step, d, &sum), i);
+        if (!trusted) none += sum * 0;
     }
     for (; i < n; i++, x += step) {
-        sum += dot(load(x), d) * 0;
-        s = see(s, dot(load(x), d), i);
+        sum = dot(load(x), d);
+        s = see(s, sum, i);
+        if (!trusted) none += sum * 0;
     }
-    if (!(sum == 0)) return n;
+    if (!(none == 0)) return n;
     summit closer = {-REAL_MAX, -REAL_MAX, s.at};
     for (i = s.at; i < n && i < s.at + RUN; i++) closer = see(closer, dot(load(v + i * step), d), i);
     closer.second = larger(closer.second, s.second);
     return settle_summit(v, n, step, reach, d, closer);
 }
 
-/* Farthest of n points, the first among equals; unless they are trusted, n if one is not finite. The sum of height * 0
- * is 0 only if every height, and with it every point, is. The rounding of two heights, 3 each, is within the licence
- * of 8. */
+static APART size_t farthest_of_many(const real *v, size_t n, size_t step, real reach, vec d)
+{
+    return farthest_in_runs(v, n, step, reach, d, 0);
+}
+
+static APART size_t farthest_of_many_trusted(const real *v, size_t n, size_t step, real reach, vec d)
+{
+    return farthest_in_runs(v, n, step, reach, d, 1);
+}
+
+/* Farthest of n points, the first among equals; unless they are trusted, n if one is not finite. The rounding of two
+ * heights, 3 each, is within the licence of 8. */
 static inline size_t farthest_among(const real *v, size_t n, size_t step, real reach, vec d, int trusted)
 {
-    if (n >= MANY) return farthest_of_many(v, n, step, reach, d);
+    if (n >= MANY)
+        return trusted ? farthest_of_many_trusted(v, n, step, reach, d) : farthest_of_many(v, n, step, reach, d);
     summit s = {dot(load(v), d), -REAL_MAX, 0};
     real sum = trusted ? 0 : s.highest * 0;
     for (size_t i = 1; i < n; i++) {
