@@ -394,3 +394,43 @@ def test_where_ours_is_not_first_is_said(few, tmp_path):
     assert re.fullmatch(r"In 0 of (\d+) classes someone is faster, .* In \1 ours is the fastest.", tabled[2])
     assert lines == ["Ours is the fastest and the most exact in every class."]
     assert not any(text.startswith("0 of") for text in reached)
+
+
+def test_of_pairs_in_float_the_more_exact_of_ours_counts(few, tmp_path):
+    """A peer that errs less than our float, not than our double, is ahead of float alone; one that errs less than both is
+    ahead of both. An answer of ours in double that is wrong does not count."""
+
+    def told(error, wrong=0):
+        rows = [dict(row) for row in few]
+        for row in rows:
+            if row["row"] == "answers":
+                ours, single = row["library"].startswith("gjk"), row["library"].endswith("f")
+                row.update(median=500.0 if single else 400.0, wrong=wrong if ours and not single else 0, failed=0)
+                if row["max_error"] is not None:
+                    row["max_error"] = 1e-8 if single else 1e-16 if ours else error
+        path = tmp_path / "results.jsonl"
+        path.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
+        measured = Measured([path])
+        held = [p for p in measured.places if p.ask.question != "intersect" and p.ours() and p.theirs()]
+        marks = [row[1] for row in tables.marks(measured).rows[-2:]]
+        cells = {tuple(row[:2]): row[2] for row in tables.by_error(measured).rows}
+        library = next(row[4] for row in tables.by_library(measured).rows if row[:2] == ["3-D, float", "libccd MPR"])
+        exact = dict(tables.glance(measured))["Exact?"]
+        assert "on these pairs double takes 0.80 of the time that float takes" in exact
+        numbers = tuple(int(re.search(pattern, exact).group(1)) for pattern in (r"^In (\d+) of", r"in (\d+)\.$"))
+        return len(held), sum(p.ask.precision == "float" for p in held), numbers, marks, cells, library
+
+    places, in_float, exact, marks, cells, library = told(1e-15)
+    assert 0 < in_float < places
+    assert exact == (0, in_float)
+    assert marks == [f"{places} of {places}", f"{places - in_float} of {places}"]
+    assert set(cells) == {("2-D, float", "polygons"), ("3-D, float", "boxes")}
+    assert re.fullmatch(r"(\d) \(0\) of \1: 1\.0e-15 to 1\.0e-8, .*", cells["3-D, float", "boxes"])
+    assert re.search(r"; \d \(0\) more exact", library)
+    assert told(1e-15, wrong=1)[2] == (in_float, in_float)
+    places, in_float, exact, marks, cells, library = told(1e-17)
+    assert exact == (places, places)
+    assert marks == [f"0 of {places}"] * 2
+    assert re.fullmatch(r"(\d) \(\1\) of \1: .*", cells["3-D, float", "boxes"])
+    assert re.fullmatch(r"(\d) of \1: 1\.0e-17 to 1\.0e-16, .*", cells["3-D, double", "boxes"])
+    assert re.search(r"; (\d) \(\1\) more exact", library)

@@ -53,7 +53,7 @@ def sections(measured, command):
 
 def not_first(measured):
     yield words.NOT_FIRST
-    for text, t in ((words.BY_CLASS, tables.by_class(measured)), (words.BY_LIBRARY, tables.by_library(measured))):
+    for text, t in tables.lost(measured):
         yield ""
         yield text
         yield ""

@@ -112,6 +112,11 @@ class Place(NamedTuple):
         """Everyone is held against this one."""
         return self.default(self.ask.variant, warm) or self.default("gjk", warm)
 
+    def most_exact_of_ours(self, warm=False):
+        """In the precision of the pairs or, of pairs in float, in double: the two stand side by side in one library."""
+        own = [a for a in self.defaults(warm) if a.is_ours and a.max_error is not None]
+        return min(own, key=lambda a: (a.bad > 0, a.max_error), default=None)
+
     def theirs(self, warm=False):
         return [a for a in self.defaults(warm) if not a.is_ours]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .measured import Place, mean_ratio
+from . import words
+from .measured import Ask, Place, mean_ratio
 from .writing import sentence, small
 
 NONE = "–"
@@ -141,6 +142,17 @@ def _against_all(place, warm=False):
     return [r for a in place.theirs(warm) for r in _rivals([place], a.library, warm)]
 
 
+def _of_our_best(r):
+    """The same, ours being whichever errs least."""
+    return r._replace(ours=r.place.most_exact_of_ours(r.ours.warm))
+
+
+def _more_exact(measured):
+    """Of each class that has errors, who errs less than ours."""
+    held = [[r for r in _against_all(p) if _has_errors(r)] for p in measured.places]
+    return [[r for r in rivals if _is_exacter(r)] for rivals in held if rivals]
+
+
 def glance(measured):
     """The whole in three answers: what is lost first."""
     held = [rivals for rivals in map(_against_all, measured.places) if any(r.ratio for r in rivals)]
@@ -150,13 +162,20 @@ def glance(measured):
         f"In {len(faster)} of {len(held)} classes someone is faster, in {len(as_good)} of these someone who is as right"
         f" and exact. In {len(held) - len(faster)} ours is the fastest."
     )
-    exact = [rivals for rivals in map(_against_all, measured.places) if any(map(_has_errors, rivals))]
-    beaten = [[r for r in rivals if _is_exacter(r)] for rivals in exact if any(map(_is_exacter, rivals))]
-    wider = sum(all(_is_wider(measured, r) for r in rivals) for rivals in beaten)
-    yield "Exact?", (
-        f"In {len(beaten)} of {len(exact)} classes someone who answers all right has a smaller largest error, in"
-        f" {wider} of these only who answers pairs in float in double. In {len(exact) - len(beaten)} no one has."
+    exact = _more_exact(measured)
+    alone, beaten = (sum(map(bool, found)) for found in (exact, map(_still, exact)))
+    text = (
+        f"In {beaten} of {len(exact)} classes someone who answers all right has a smaller largest error than ours; in"
+        f" {len(exact) - beaten} no one has."
     )
+    doubled = _sisters(measured)
+    if doubled:
+        text += (
+            " Of pairs in float the more exact of ours counts, in float or in double: one library has both, and on"
+            f" these pairs double takes {ratio(mean_ratio(doubled))} of the time that float takes. With float alone"
+            f" someone is more exact in {alone}."
+        )
+    yield "Exact?", text
     ours, theirs = ([row for row in _counts(measured) if row[0].startswith("gjk") == own] for own in (True, False))
     wrong = sum(a.wrong for p in measured.places for a in p.answers if a.is_ours)
     text = f"Of our answers {_bad(ours)} are wrong or failed; at all settings together {wrong} are wrong."
@@ -166,9 +185,12 @@ def glance(measured):
     yield "Right?", text
 
 
-def _is_wider(measured, r):
-    """Whether they answer in more digits than the pairs and ours have."""
-    return r.place.ask.precision == "float" and not measured.peers[r.theirs.library]["single"]
+def _sisters(measured):
+    """Of pairs in float, what ours takes in double divided by what it takes in float."""
+    asks = [Ask(question, dim, "float") for question in MEASURING for dim in (2, 3)]
+    for_float = [p for p in measured.places if p.ask in asks and p.ours()]
+    sisters = [(p.default(p.ours().library.rstrip("f")), p.ours()) for p in for_float]
+    return [a.ratio(ours) for a, ours in sisters if a and a is not ours and a.ratio(ours)]
 
 
 def _bad(rows):
@@ -177,6 +199,7 @@ def _bad(rows):
 
 
 QUESTIONS = ("distance", "intersect", "penetration")
+MEASURING = ("distance", "penetration")
 
 
 def _kinds(measured):
@@ -185,6 +208,15 @@ def _kinds(measured):
     for dim, precision in kinds:
         own = [p for p in measured.places if (p.ask.dim, p.ask.precision) == (dim, precision)]
         yield f"{dim}-D, {precision}", [[p for p in own if p.ask.question == question] for question in QUESTIONS]
+
+
+def lost(measured):
+    """All that tells where ours is not first, each with its words."""
+    yield words.BY_CLASS, by_class(measured)
+    errors = by_error(measured)
+    if errors.rows:
+        yield words.BY_ERROR, errors
+    yield words.BY_LIBRARY, by_library(measured)
 
 
 def by_class(measured):
@@ -206,6 +238,36 @@ def _lost(places):
     return f"{len(faster)} of {len(places)}: {ratio(most.ratio)}, {most.theirs.library}"
 
 
+def by_error(measured):
+    """By class, where someone is: in how many states someone is more exact, and by how much where that is most."""
+    rows = []
+    for kind, of_question in _kinds(measured):
+        for name in dict.fromkeys(p.name for places in of_question for p in places):
+            own = [[p for p in places if p.name == name] for places in of_question]
+            cells = [_outdone(own[QUESTIONS.index(question)]) for question in MEASURING]
+            if any(cell != NONE for cell in cells):
+                rows.append([kind, name, *cells])
+    return Table(["pairs", "class", *MEASURING], rows, 4)
+
+
+def _outdone(places):
+    lost = [r for p in places for r in _against_all(p) if _is_exacter(r)]
+    if not lost:
+        return NONE
+    most = max(lost, key=_lead)
+    return f"{_states(lost)} of {len(places)}: {_errors_of(most)}, {most.theirs.library}"
+
+
+def _states(more_exact):
+    """How many they are; of pairs in float, in brackets, where someone is more exact than ours in double, too."""
+    every, left = ({(r.place.name, r.place.state) for r in found} for found in (more_exact, _still(more_exact)))
+    return f"{len(every)} ({len(left)})" if more_exact[0].place.ask.precision == "float" else f"{len(every)}"
+
+
+def _still(more_exact):
+    return [r for r in map(_of_our_best, more_exact) if _is_exacter(r)]
+
+
 def by_library(measured):
     """By library: what it takes, in how many classes it is faster, in how many of these as right and exact."""
     rows = []
@@ -225,8 +287,8 @@ def _rival(held):
     text = f"{ratio(mean_ratio([r.ratio for r in timed]))}: {len(faster)} of {len(timed)}"
     if faster:
         text += f", {sum(r.is_as_good for r in faster)} as good"
-    exacter = sum(map(_is_exacter, held))
-    return f"{text}; {exacter} more exact" if exacter else text
+    more_exact = list(filter(_is_exacter, held))
+    return f"{text}; {_states(more_exact)} more exact" if more_exact else text
 
 
 def not_first(measured):
@@ -275,8 +337,15 @@ def _span(ratios):
 
 
 def _errors_where_most(rivals):
-    most = max(rivals, key=lambda r: r.ours.max_error - r.theirs.max_error)
-    return f"{size(most.theirs.max_error)} to {size(most.ours.max_error)}"
+    return _errors_of(max(rivals, key=_lead))
+
+
+def _lead(r):
+    return r.ours.max_error - r.theirs.max_error
+
+
+def _errors_of(r):
+    return f"{size(r.theirs.max_error)} to {size(r.ours.max_error)}"
 
 
 def _places(rivals, what):
@@ -351,7 +420,7 @@ MARKS = [
 def marks(measured):
     """What the library is to reach, and what it does."""
     rows = [_mark_row(mark, measured) for mark in MARKS]
-    return Table(["ours is to be", "reached in", "mean", "least"], [*rows, _error_row(measured)], 4)
+    return Table(["ours is to be", "reached in", "mean", "least"], [*rows, *_error_rows(measured)], 4)
 
 
 def _mark_row(mark, measured):
@@ -363,18 +432,22 @@ def _mark_row(mark, measured):
     return [mark.text, f"{met} of {len(found)}", ratio(mean_ratio([r for r, _ in found])), f"{ratio(least)}: {where}"]
 
 
-def _error_row(measured):
-    """Whether in each class everyone's largest error is at least ours."""
+def _error_rows(measured):
+    """Whether in each class everyone's largest error is at least ours: of whichever errs least, then of float alone."""
+    found = _more_exact(measured)
     text = "as exact as whoever is most exact, of those that are neither wrong nor fail"
-    places = [[r for r in _against_all(p) if _has_errors(r)] for p in measured.places]
-    places = [rivals for rivals in places if rivals]
-    lost = [r for rivals in places for r in rivals if _is_exacter(r)]
+    yield _error_row(f"{text}; pairs in float answered in float or in double", list(map(_still, found)))
+    yield _error_row("the same with pairs in float answered in float alone", found)
+
+
+def _error_row(text, found):
+    lost = [r for rivals in found for r in rivals]
     if not lost:
-        return [text, f"{len(places)} of {len(places)}", NONE, NONE]
-    met = sum(not any(map(_is_exacter, rivals)) for rivals in places)
-    most = max(lost, key=lambda r: r.ours.max_error - r.theirs.max_error)
+        return [text, f"{len(found)} of {len(found)}", NONE, NONE]
+    most = max(lost, key=_lead)
+    met = sum(not rivals for rivals in found)
     where = f"{most.theirs.library}: {_spelled(most.place)}"
-    return [text, f"{met} of {len(places)}", NONE, f"{_errors_where_most([most])}: {where}"]
+    return [text, f"{met} of {len(found)}", NONE, f"{_errors_of(most)}: {where}"]
 
 
 def _spelled(place):

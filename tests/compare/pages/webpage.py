@@ -142,8 +142,7 @@ def _cards(measured):
 
 def _not_first(measured):
     parts = [prose(words.NOT_FIRST)]
-    parts += [prose(words.BY_CLASS), table(tables.by_class(measured), "prose")]
-    parts += [prose(words.BY_LIBRARY), table(tables.by_library(measured), "prose")]
+    parts += [prose(text) + table(t, "prose") for text, t in tables.lost(measured)]
     for title, lines in tables.not_first(measured):
         parts.append(f"<h3>{escape(sentence(title))}</h3>\n<ul>")
         parts += [f"<li>{escape(text)}</li>" for text in lines]

@@ -11,18 +11,23 @@ answer judged by exact truth."""
 PLOT = "Largest error against run time of gjk and other libraries, each through its settings"
 MARKS = """\
 What the library is to reach, everyone at its defaults, each class and state of pairs for itself. Mean (geometric) and
-least are of theirs ÷ ours, the median time that they take divided by ours: above 1 they are slower. In the last row
-they are largest errors, theirs to ours. Sound is who answers all right and errs by no more than 1e-14 scales."""
+least are of theirs ÷ ours, the median time that they take divided by ours: above 1 they are slower. In the last two
+rows they are largest errors, theirs to ours. Sound is who answers all right and errs by no more than 1e-14 scales."""
 NOT_FIRST = """\
-Everyone at its defaults. Faster is by median time; more exact by the largest error of a class, of those who have no
-wrong and no failed answer in it. Among the faster, who has none either, and is off by no more than ours or than 4
-roundings of the scale, counts as *as good*."""
+Everyone at its defaults; ours is the variant in the precision of the pairs, if nothing else is said: for pairs in float
+gjk2f or gjk3f. Faster is by median time; more exact by the largest error of a class, of those who have no wrong and no
+failed answer in it. Among the faster, who has none either, and is off by no more than ours or than 4 roundings of the
+scale, counts as *as good*."""
 BY_CLASS = """\
 By class: in how many of its states someone as good is faster, and the fastest of all these, with the part of our time
 that it takes."""
 BY_LIBRARY = """\
 By library: the mean (geometric) of its time divided by ours, below 1 it is the faster; then in how many classes it is
-faster, and in how many of these as good. Which classes these are, the page with all plots lists."""
+faster, and in how many of these as good; then in how many it is more exact, in brackets as above. Which classes these
+are, the page with all plots lists."""
+BY_ERROR = """\
+By class, where someone is more exact: in how many of its states, of pairs in float in brackets in how many of these also
+than ours in double; then their largest error to ours where they lead by most, and who that is."""
 COUNTS = "Of all answers at the defaults, cold and warm."
 TIMES = """\
 Ours: nanoseconds (median) and, where they were counted, instructions an answer. Of the others what each takes divided
