@@ -1,13 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /* A cache that does not fit costs time, never truth. */
 #include "pairs.h"
-#include "truth.h"
+#include "settle.h"
+
+/* In u * scale: what brackets asks of cold values. */
+#define VALUE_ERROR 4.0
 
 static V(cache) cache;
 static pair p;
 static truth t;
+static exact best;
 
 static void start_cache(void) { memset(&cache, 0, sizeof cache); }
+
+static double off_by(real value)
+{
+    quad low = positive(t.lower), high = positive(t.upper), x = (quad)value;
+    quad off = x > high ? x - high : x < low ? low - x : 0;
+    return (double)(off / (t.scale * (quad)U + (quad)REAL_MIN));
+}
+
+/* How far the distance is off, in u * scale. The truth is known. */
+static double error_of(real value, const body *a, const body *b)
+{
+    double error = off_by(value);
+    return !(error <= VALUE_ERROR) && settle(&t, &best, a, b) ? off_by(value) : error;
+}
 
 /* Both queries, with the cache, against the truth. */
 static void check(const body *a, const body *b)
@@ -91,8 +109,32 @@ static void of_bodies_in_other_places(void **state)
     }
 }
 
+static real warm_distance(void)
+{
+    V(options) o = default_options();
+    V(result) r;
+    o.cache = &cache;
+    assert_true(V(distance)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+    return r.value;
+}
+
+/* From where the bodies' origins are one, so that the cache may hold a simplex around the origin, or all but. */
+static real distance_after_overlap(void)
+{
+    V(options) o = default_options();
+    V(result) r;
+    real place[DIM];
+    o.cache = &cache;
+    memcpy(place, p.b.pose.p, sizeof place);
+    memcpy(p.b.pose.p, p.a.pose.p, sizeof place);
+    assert_true(V(intersect)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+    memcpy(p.b.pose.p, place, sizeof place);
+    return warm_distance();
+}
+
 static void of_moved_bodies(void **state)
 {
+    double worst = 0;
     (void)state;
     for (uint64_t i = 0; i < ROUNDS; i++) {
         draws d = draws_from(6, 3, i);
@@ -101,6 +143,10 @@ static void of_moved_bodies(void **state)
         start_cache();
         for (int k = 0; k < 4; k++) {
             check(&p.a, &p.b);
+            if (has_corners(&p.a) && has_corners(&p.b)) {
+                worst = fmax(worst, error_of(warm_distance(), &p.a, &p.b));
+                worst = fmax(worst, error_of(distance_after_overlap(), &p.a, &p.b));
+            }
             unit(&d, dir);
             move(&p.b, dir, magnitude(&d, -8, 1));
             if (below(&d, 2)) {
@@ -110,7 +156,46 @@ static void of_moved_bodies(void **state)
             bind(&p.a);
         }
     }
+    printf("values off by at most %.2f u * scale\n", worst);
+    assert_true(worst <= VALUE_ERROR);
 }
+
+#if DIM == 3
+/* Corners thousands of sizes out, which a map brings near: in float the value was 11.7 u * scale off, warm only, when
+ * the distance was taken for told once it was known to two roundings of the frame. */
+static void of_a_box_mapped_near(void **state)
+{
+    static const float of_box[] = {0x1.c3436p-14f, 0x1.5992c4p+6f, -0x1.6658cep-5f, -0x1.46058cp-12f, 0x1.9ac30ap+6f,
+                                   0x1.01d754p-5f, 0x1.32dbdp-12f, 0x1.2e1032p+7f,  -0x1.1072cep-4f};
+    static const float half[] = {0x1.c07f4ep+10f, 0x1.09981ap+11f, 0x1.527d5ap+14f};
+    static const float of_face[] = {-0x1.f0557ep-2f, -0x1.0e9c4ep-1f, 0x1.2a6576p-2f,  -0x1.019d66p-3f, 0x1.42e77cp-1f,
+                                    0x1.8b2c9ep-1f,  -0x1.4f51c4p-2f, -0x1.eaa9e8p-5f, -0x1.15b85ap-1f};
+    static const float corners[3][3] = {{0x1.dbd1b8p-4f, 0x1.c6356ep-8f, 0},
+                                        {-0x1.d0c498p-20f, 0x1.38d862p-1f, 0},
+                                        {0x1.de0accp-11f, -0x1.4a9c16p-2f, 0}};
+    static const float places[2][3] = {{-0x1.4596fap-5f, 0x1.c9b33cp-11f, -0x1.b9ed48p-7f},
+                                       {-0x1.079cb8p-1f, -0x1.b6c4eep-1f, 0x1.28d448p-2f}};
+    (void)state;
+    start_body(&p.a, BOX);
+    start_body(&p.b, POINTS);
+    p.b.count = 3;
+    for (int i = 0; i < 9; i++) {
+        p.a.pose.m[i] = of_box[i];
+        p.b.pose.m[i] = of_face[i];
+        p.b.v[i / 3][i % 3] = corners[i / 3][i % 3];
+    }
+    for (int i = 0; i < 3; i++) {
+        p.a.half[i] = half[i];
+        p.a.pose.p[i] = places[0][i];
+        p.b.pose.p[i] = places[1][i];
+    }
+    bind_pair(&p);
+    start_cache();
+    find_truth(&t, &p.a, &p.b, 0);
+    assert_true(settle(&t, &best, &p.a, &p.b));
+    assert_true(off_by(distance_after_overlap()) <= 1);
+}
+#endif
 
 /* Never started, or trampled on; even with the right pointers and a count. */
 static void of_garbage(void **state)
@@ -348,6 +433,9 @@ int main(void)
         cmocka_unit_test(of_boxes_that_grow),
         cmocka_unit_test(of_bodies_in_other_places),
         cmocka_unit_test(of_moved_bodies),
+#if DIM == 3
+        cmocka_unit_test(of_a_box_mapped_near),
+#endif
         cmocka_unit_test(of_garbage),
         cmocka_unit_test(after_errors),
         cmocka_unit_test(of_a_cloud_edited),
@@ -356,5 +444,6 @@ int main(void)
         cmocka_unit_test(after_a_leap),
         cmocka_unit_test(after_slack),
     };
+    exact_start(&best);
     return cmocka_run_group_tests_name("caches of " VARIANT, tests, NULL, NULL);
 }
