@@ -19,8 +19,8 @@ measure() { # VARIANT...
             xargs -0 $out/stability.$variant "$pairs" "$seed" $out/$variant.jsonl || [ $? -eq 123 ]
     done
 }
-measure gjk3 &
-measure gjk3f gjk2 gjk2f
+measure gjk3 gjk2 &
+measure gjk3f gjk2f
 wait $!
 python3 tests/compare/page.py --command "sh tests/compare/stability.sh $pairs $seed" -o "$page" \
     $out/gjk2.jsonl $out/gjk2f.jsonl $out/gjk3.jsonl $out/gjk3f.jsonl
