@@ -21,7 +21,7 @@ from queue import Queue
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 LEFT = shutil.ignore_patterns(".*", "build", "bindings", "docs", "__pycache__")
-SETTINGS = ["CMAKE_BUILD_TYPE=Release", "GJK_BUILD_SHARED=OFF"]
+SETTINGS = ["CMAKE_BUILD_TYPE=Release", "GJK_BUILD_SHARED=OFF", "GJK_TEST_WARNINGS=OFF"]
 OF_A_VARIANT = re.compile(r"(?!compare\.)\w+\.gjk[23]f?$")  # those of the code alone: not of peers, fuzzers, files
 
 
