@@ -296,10 +296,8 @@ static inline int place_roughly(const polytope *p, facet *f)
     f->n = mul(n, 1 / root(nn));
     f->height = smaller(dot(f->n, w1), dot(f->n, w0));
 #else
-    const vec w2 = p->tip[f->v[2]].w, e0 = sub(w1, w0), e1 = sub(w2, w1), e2 = sub(w0, w2);
-    const real s0 = dot(e0, e0), s1 = dot(e1, e1), s2 = dot(e2, e2), longest = larger(s0, larger(s1, s2));
-    vec n = s0 == longest ? cross(e1, e2) : s1 == longest ? cross(e2, e0) : cross(e0, e1);
-    real nn = dot(n, n);
+    const vec w2 = p->tip[f->v[2]].w, e0 = sub(w1, w0), e1 = sub(w2, w1), e2 = sub(w0, w2), n = cross(e0, e1);
+    const real longest = larger(dot(e0, e0), larger(dot(e1, e1), dot(e2, e2))), nn = dot(n, n);
     if (!(4096 * nn > longest * longest && nn > tall * tall * longest)) return 0;
     f->n = mul(n, 1 / root(nn));
     f->height = smaller(dot(f->n, w2), smaller(dot(f->n, w1), dot(f->n, w0)));
