@@ -155,14 +155,17 @@ static real hand_over(const depth *d, real weight[DIM + 1])
         simplex before = *s;
         if (!is_level(d, &t) || !(dot(v, sub(t.w, foot)) < dot(v, v))) break;
         take_tip(s, &t, foot);
-        vec better = nearest_of_all(s, 0, s->n <= DIM, 0);
+        vec better = s->n <= DIM ? nearest(s) : nearest_of_all(s, 0, 0, 0);
         if (!(dot(better, better) < dot(v, v))) {
             *s = before;
             break;
         }
         v = better;
+        under = 0;
     }
     q->v = v;
+    if (under) normalize(weight, DIM);
+    if (under && peak(sub(blend(s, weight, offsetof(vertex, w), 1), v)) <= 4 * UNIT) return length(v);
     return certify(q, weight) - q->d.doubt;
 }
 
@@ -264,7 +267,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     int flat = d->p.facets == 0;
     if (end == OPEN && !flat) end = deepen(d);
     if (end == FAULT) return end;
-    if (d->floor && d->floor->rough) sharpen_facet(&d->p, d->floor);
+    if (d->floor && d->floor->rough == ROUGH) sharpen_facet(&d->p, d->floor);
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     prove(d, upper);
     if (g->tight && !d->settled && d->floor && d->q->steps < g->max_steps) {

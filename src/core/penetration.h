@@ -18,6 +18,20 @@ typedef struct tally {
     real least, certain, doubtful;
 } tally;
 
+/* A coordinate of a direction, to twice the digits; h: the halves of its high. */
+typedef struct slope {
+    real high, low;
+    halves h;
+} slope;
+
+/* What heights along a direction are made of. */
+typedef struct sight {
+    vec n;                /* unit to rounding; 0: none yet */
+    slope a[DIM], b[DIM]; /* n as A sees it, and -n as B does */
+    twin apart;           /* the height of -c along n */
+    real excess;          /* of |n| above 1 */
+} sight;
+
 typedef struct depth {
     search *q;
     const shape *a, *b;
@@ -27,6 +41,7 @@ typedef struct depth {
     tally dropped;      /* of facets that the surface has but the polytope no longer */
     vec along;          /* the direction asked last, of known corners to all digits, */
     real below;         /*   and the bound from below that it gave */
+    sight sight;        /* and what is looked along */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
     real ends[3];       /* the bracket of the separation then, radii included, and the value */
     vec normal;         /* that goes with it */
@@ -53,22 +68,32 @@ static int ask_along(depth *d, vec n, tip *t)
 
 /* ---- heights without rounding, of known corners ---- */
 
-/* n as the body sees it. */
-static void turned(const body *k, vec n, twin g[DIM])
+/* n as the body sees it; h: its halves. */
+static inline void turned(const body *k, vec n, const halves h[DIM], slope g[DIM])
 {
+    if (!k->posed) {
+        for (int j = 0; j < DIM; j++) g[j] = (slope){n.c[j], 0, h[j]};
+        return;
+    }
     for (int j = 0; j < DIM; j++) {
-        g[j] = (twin){k->posed ? 0 : n.c[j], 0};
-        for (int i = 0; i < DIM && k->posed; i++) gather(&g[j], product_of(k->m[DIM * i + j], n.c[i]));
+        twin t = product_of_halves(k->m[j], halves_of(k->m[j]), n.c[0], h[0]);
+        for (int i = 1; i < DIM; i++) {
+            real m = k->m[DIM * i + j];
+            gather(&t, product_of_halves(m, halves_of(m), n.c[i], h[i]));
+        }
+        g[j] = (slope){t.high, t.low, halves_of(t.high)};
     }
 }
 
-/* How high the corner c stands along g. */
-static twin height_along(const twin g[DIM], vec c)
+/* How high the point c stands along g. */
+static inline twin height_along(const slope g[DIM], vec c)
 {
     twin h = {0, 0};
     for (int j = 0; j < DIM; j++) {
-        gather(&h, product_of(g[j].high, c.c[j]));
-        h.low += g[j].low * c.c[j];
+        twin p = product_of_halves(g[j].high, g[j].h, c.c[j], halves_of(c.c[j]));
+        p.low += g[j].low * c.c[j];
+        if (j == 0) h = p;
+        else gather(&h, p);
     }
     return sum_of(h.high, h.low);
 }
@@ -89,32 +114,91 @@ static listing corners_of(const shape *s)
 
 static inline vec nth_of(const listing *l, size_t n) { return load(l->v + n * l->step); }
 
-/* Of the body's corners the one farthest along n, and its height from the body's own origin. Rounded heights tell which
+/* Of the body's corners the one farthest along g, and its height from the body's own origin. Rounded heights tell which
  * it can't be. */
-static twin farthest_corner(const body *k, const shape *s, vec n, vec *x)
+static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], vec *x)
 {
-    twin g[DIM], most = {-REAL_MAX, 0};
     vec rough;
-    turned(k, n, g);
-    for (int j = 0; j < DIM; j++) rough.c[j] = g[j].high + g[j].low;
+    const real grain = k->grain;
+    EACH(rough.c[i] = g[i].high + g[i].low);
     if (is_box(s)) {
         *x = box_corner(s, rough);
-        return height_along(g, mul(*x, k->grain));
+        return height_along(g, mul(*x, grain));
     }
     const listing l = corners_of(s);
-    const real margin = 16 * UNIT * (k->reach * k->grain) * spread(rough);
+    const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
+    twin most = {-REAL_MAX, 0};
     real least = -REAL_MAX;
-    for (size_t i = 0; i < l.count; i++) {
-        vec c = mul(nth_of(&l, i), k->grain);
+    for (size_t i = 0; i < l.count; i++, at += l.step) {
+        vec c = mul(load(at), grain);
         real about = dot(c, rough);
         if (about < least) continue;
         least = larger(about - margin, least);
         twin h = height_along(g, c);
         if (!(h.high > most.high || (h.high == most.high && h.low > most.low))) continue;
         most = h;
-        *x = nth_of(&l, i);
+        *x = load(at);
     }
     return most;
+}
+
+/* Looks along a unit n: what its heights are made of. */
+static void look_along(depth *d, vec n)
+{
+    const difference *f = &d->q->d;
+    sight *s = &d->sight;
+    halves h[DIM], back[DIM];
+    twin square = {-1, 0}, apart = {0, 0};
+    if (same(n, s->n)) return;
+    for (int i = 0; i < DIM; i++) {
+        h[i] = halves_of(n.c[i]);
+        back[i] = (halves){-h[i].upper, -h[i].lower};
+        gather(&square, product_of_halves(n.c[i], h[i], n.c[i], h[i]));
+        gather(&apart, product_of_halves(-n.c[i], back[i], f->c.c[i], halves_of(f->c.c[i])));
+        apart.low -= n.c[i] * f->c_low.c[i];
+    }
+    s->n = n;
+    turned(&f->a, n, h, s->a);
+    turned(&f->b, mul(n, -1), back, s->b);
+    s->apart = apart;
+    s->excess = (square.high + square.low) / 2;
+}
+
+/* The height of A - B's points x - y, of these heights along what is looked along. */
+static inline twin height_between(const sight *s, twin x, twin y)
+{
+    twin h = x;
+    gather(&h, y);
+    gather(&h, s->apart);
+    return sum_of(h.high, h.low - h.high * s->excess);
+}
+
+/* The height of A - B along n, and the corner there: its x and y. */
+static twin fine_height(depth *d, vec n, vertex *c)
+{
+    const difference *f = &d->q->d;
+    look_along(d, n);
+    twin x = farthest_corner(&f->a, d->a, d->sight.a, &c->x);
+    return height_between(&d->sight, x, farthest_corner(&f->b, d->b, d->sight.b, &c->y));
+}
+
+static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.high == k.high && h.low < k.low); }
+
+/* The least height of the facet's corners, along its normal, which is looked along. */
+static twin floor_seen(const depth *d, const facet *f)
+{
+    const difference *of = &d->q->d;
+    const tip *last = NULL;
+    twin least = {REAL_MAX, 0}, x = least, y = least;
+    for (int k = 0; k < DIM; k++) {
+        const tip *t = &d->p.tip[f->v[k]];
+        if (!last || !same(t->x, last->x)) x = height_along(d->sight.a, mul(t->x, of->a.grain));
+        if (!last || !same(t->y, last->y)) y = height_along(d->sight.b, mul(t->y, of->b.grain));
+        twin h = height_between(&d->sight, x, y);
+        if (is_lower_twin(h, least)) least = h;
+        last = t;
+    }
+    return least;
 }
 
 /* By how much |n| is above 1, for n that is unit to rounding. */
@@ -123,19 +207,6 @@ static real excess(vec n)
     twin square = {-1, 0};
     for (int i = 0; i < DIM; i++) gather(&square, product_of(n.c[i], n.c[i]));
     return (square.high + square.low) / 2;
-}
-
-/* The height of A - B along n, and the corner there: its x and y. */
-static twin fine_height(const depth *d, vec n, vertex *c)
-{
-    const difference *f = &d->q->d;
-    twin h = farthest_corner(&f->a, d->a, n, &c->x);
-    gather(&h, farthest_corner(&f->b, d->b, mul(n, -1), &c->y));
-    for (int i = 0; i < DIM; i++) {
-        gather(&h, product_of(-n.c[i], f->c.c[i]));
-        h.low -= n.c[i] * f->c_low.c[i];
-    }
-    return sum_of(h.high, h.low - h.high * excess(n));
 }
 
 /* The least height of the facet's corners. */
@@ -148,9 +219,80 @@ static twin fine_floor(const polytope *p, const facet *f)
         twin h = {0, dot(f->n, t->low)};
         for (int i = 0; i < DIM; i++) gather(&h, product_of(f->n.c[i], t->w.c[i]));
         h = sum_of(h.high, h.low);
-        if (h.high < least.high || (h.high == least.high && h.low < least.low)) least = h;
+        if (is_lower_twin(h, least)) least = h;
     }
     return sum_of(least.high, least.low - least.high * excess(f->n));
+}
+
+/* ---- normals of known corners ---- */
+
+/* The upper digits of x, which is within that size, a power of two: of the products of two such, sums of DIM keep all
+ * their digits. */
+static inline real leading_digits(real x, real size)
+{
+    real big = size * (real)((bits)3 << (MANTISSA - MANTISSA / 2 - 1));
+    return (x + big) - big;
+}
+
+/* Adds sign times the way from one point of the body to another, as the frame sees it: what is added rounds itself, not
+ * as the points do. No bound depends on it. */
+static inline void add_way(const body *k, real sign, vec from, vec to, vec *way, vec *rest)
+{
+    vec x, low, up, here, lost;
+    if (same(from, to)) return;
+    for (int i = 0; i < DIM; i++) {
+        twin t = sum_of(to.c[i], -from.c[i]);
+        x.c[i] = t.high * (sign * k->grain);
+        low.c[i] = t.low * (sign * k->grain);
+    }
+    here = x;
+    lost = low;
+    if (k->posed) {
+        const real of_map = 2 / leveler(k->norm), of_way = 4 / leveler(k->reach * k->grain);
+        EACH(up.c[i] = leading_digits(x.c[i], of_way));
+        low = add(sub(x, up), low);
+        for (int row = 0; row < DIM; row++) {
+            vec m = load(k->m + DIM * row), m_up;
+            EACH(m_up.c[i] = leading_digits(m.c[i], of_map));
+            here.c[row] = dot(m_up, up);
+            lost.c[row] = dot(m_up, low) + dot(sub(m, m_up), x);
+        }
+    }
+    for (int i = 0; i < DIM; i++) {
+        twin t = sum_of(way->c[i], here.c[i]);
+        way->c[i] = t.high;
+        rest->c[i] += t.low + lost.c[i];
+    }
+}
+
+/* From tip to tip, as the bodies' own points say: without what their corners' sums round. */
+static inline vec own_way(const depth *d, const tip *from, const tip *to)
+{
+    vec way = axis(0, 0), rest = way;
+    add_way(&d->q->d.a, 1, from->x, to->x, &way, &rest);
+    add_way(&d->q->d.b, -1, from->y, to->y, &way, &rest);
+    return add(way, rest);
+}
+
+/* Places a rough facet to all digits: its normal is that of its tips without rounding, rounded; its height is rough. */
+static void polish_facet(depth *d, facet *f)
+{
+    const tip *t[DIM];
+    for (int i = 0; i < DIM; i++) t[i] = &d->p.tip[f->v[i]];
+#if DIM == 2
+    vec e = own_way(d, t[0], t[1]), n = {{e.c[1], -e.c[0]}};
+#else
+    /* from the two shorter edges, which meet in corner k */
+    vec e[3];
+    for (int i = 0; i < 3; i++) e[i] = way_to(t[i], t[i == 2 ? 0 : i + 1]);
+    const real s0 = dot(e[0], e[0]), s1 = dot(e[1], e[1]), s2 = dot(e[2], e[2]);
+    const int k = s0 >= s1 && s0 >= s2 ? 2 : s1 >= s2 ? 0 : 1;
+    vec n = cross(own_way(d, t[k], t[(k + 1) % 3]), own_way(d, t[k], t[(k + 2) % 3]));
+#endif
+    f->n = mul(n, 1 / length(n));
+    f->height = dot(f->n, t[0]->w);
+    for (int i = 1; i < DIM; i++) f->height = smaller(dot(f->n, t[i]->w), f->height);
+    f->rough = POLISHED;
 }
 
 /* The bound from below along a unit n, without the rounding of corners, and the corner there. */
@@ -243,13 +385,33 @@ static enum end spread_out(depth *d)
     return STILL;
 }
 
+/* Corners of a simplex that stand off those before them by less are left out. */
+#define OFF ((real)0x1p-10)
+
+/* Of a full simplex none is. */
+static int is_spread(const simplex *s)
+{
+    vec a = sub(point(s, 1), point(s, 0)), b = sub(point(s, 2), point(s, 0));
+    real aa = dot(a, a);
+#if DIM == 2
+    real area = a.c[0] * b.c[1] - a.c[1] * b.c[0];
+    return aa > OFF * OFF && area * area > OFF * OFF * aa;
+#else
+    vec n = cross(a, b);
+    real nn = dot(n, n), volume = dot(n, sub(point(s, 3), point(s, 0)));
+    return aa > OFF * OFF && nn > OFF * OFF * aa && volume * volume > OFF * OFF * nn;
+#endif
+}
+
 /* The simplex that the search left, without the corners that hardly stand off the others. */
 static void take_simplex(depth *d)
 {
     polytope *p = &d->p;
-    for (int i = 0; i < d->q->s.n; i++) {
-        tip t = tip_of(corner(&d->q->s, i), d->g->exact);
-        if (i > 0 && !(length(square_to_tips(p, way_to(&p->tip[0], &t))) > (real)0x1p-10)) continue;
+    const simplex *s = &d->q->s;
+    const int spread = s->n > DIM && is_spread(s);
+    for (int i = 0; i < s->n; i++) {
+        tip t = tip_of(corner(s, i), d->g->exact);
+        if (i > 0 && !spread && !(length(square_to_tips(p, way_to(&p->tip[0], &t))) > OFF)) continue;
         p->tip[p->tips++] = t;
     }
 }
@@ -287,19 +449,47 @@ static int inner_side(const depth *d, const facet *f)
     return whole.lost ? -1 : whole.sign;
 }
 
+/* A lower bound of heights to twice the digits. */
+static inline real below_height(twin h) { return h.high - 2 * UNIT * size(h.high) + h.low - 256 * UNIT * UNIT; }
+
 /* A lower bound of the heights of the facet's points along its n, in the frame, without the corners' own rounding. */
 static real floor_of(const depth *d, const facet *f)
 {
     if (!d->g->exact) return f->height - 8 * UNIT * (size(f->height) + 2) - d->q->d.doubt;
-    twin h = fine_floor(&d->p, f);
-    return h.high - 2 * UNIT * size(h.high) + h.low - 256 * UNIT * UNIT;
+    return below_height(same(f->n, d->sight.n) ? floor_seen(d, f) : fine_floor(&d->p, f));
+}
+
+/* Whether the facet is in the lowest facet's plane for certain: it is the other half of a parallelogram. */
+static int is_other_half(const depth *d, const facet *f)
+{
+    const facet *low = d->floor;
+    int shared = 0, fourth = 0;
+    for (int i = 0; i < DIM; i++) {
+        int common = 0;
+        for (int k = 0; k < DIM; k++) common |= f->v[i] == low->v[k];
+        shared += common;
+        if (!common) fourth = f->v[i];
+    }
+    return shared == DIM - 1 && is_fourth(&d->p, low, &d->p.tip[fourth]);
+}
+
+/* What a facet's floor is at least, seen along the lowest facet's normal; below all that counts if it is not known well
+ * enough by that. Of the lowest facet's other half it is as good as along its own, which is made of other edges. */
+static real floor_seen_well(const depth *d, const facet *f, real least)
+{
+    if (!(peak(d->sight.n) > 0) || same(f->n, d->sight.n)) return -REAL_MAX;
+    real floor = below_height(floor_seen(d, f));
+    int well = floor >= least || (floor > least - 4 * UNIT && d->floor && is_other_half(d, f));
+    return well ? floor : -REAL_MAX;
 }
 
 /* How low the facets are. */
 static void count_height(const depth *d, const facet *f, tally *t)
 {
     t->facets++;
-    if (f->height - 64 * UNIT - d->q->d.doubt < t->least) t->least = smaller(floor_of(d, f), t->least);
+    if (!(f->height - 64 * UNIT - d->q->d.doubt < t->least)) return;
+    real floor = floor_seen_well(d, f, t->least);
+    t->least = smaller(floor > -REAL_MAX ? floor : floor_of(d, f), t->least);
 }
 
 /* Counts the solid angle under which the origin sees the facet. One whose side is certain counts for more than 0; one
@@ -383,7 +573,7 @@ static int is_beyond(depth *d, facet *f, tip *t)
     int fresh = is_clear(f, rough_rise(f, t)) || !is_tip_of(&d->p, f, t);
     if (fresh && sees(&d->p, f, t) && !is_known(&d->p, t)) return 1;
     if (!d->g->exact) return 0;
-    if (f->rough) sharpen_facet(&d->p, f);
+    if (f->rough == ROUGH) polish_facet(d, f);
     fine_bound(d, f->n, &c);
     c.w = corner_of(&d->q->d, c.x, c.y);
     *t = tip_of(&c, 1);

@@ -31,8 +31,11 @@ typedef struct facet {
     signed char done;  /* nothing lies beyond it */
     signed char gone;  /* it makes room for the corner that is being taken in */
     signed char form;
-    signed char rough; /* made of what its tips are by rounding, though more of these can be known */
+    signed char
+        rough; /* made of what its tips are by rounding, though more of these can be known; or its normal is not */
 } facet;
+
+enum rough { SHARP, ROUGH, POLISHED };
 
 /* THIN: it has no area to speak of, and its normal is noise. WIDE: it is so large that its normal, by what its corners
  * and its edges have been rounded, is off by less than an eighth of CLEAR; a rough one so large that as seen from the
@@ -277,7 +280,7 @@ static APART void sharpen_facet(polytope *p, facet *f)
     f->n = unit_of(outward(p, f, &form), p->tip[f->v[0]].w);
     f->form = (signed char)form;
     f->height = least_height(p, f, f->n);
-    f->rough = 0;
+    f->rough = SHARP;
 #if DIM == 3
     if (form == THIN) straighten(p, f);
 #endif
@@ -303,7 +306,7 @@ static inline int place_roughly(const polytope *p, facet *f)
     f->height = smaller(dot(f->n, w2), smaller(dot(f->n, w1), dot(f->n, w0)));
 #endif
     f->form = WIDE;
-    f->rough = p->fine != 0;
+    f->rough = p->fine ? ROUGH : SHARP;
     return 1;
 }
 
@@ -422,26 +425,6 @@ static int other_side(const polytope *p, seam s)
     return k;
 }
 
-/* Takes the facet out, once t is in: its seams are on the rim, behind those that have been looked across; but for those
- * that were there, which it has in common with others that are out. */
-static void take_out(polytope *p, int at, int *looked)
-{
-    p->facet[at].gone = 1;
-    for (int i = 0; i < DIM; i++) {
-        seam s = seam_of(p, at, i);
-        int k = s.next != WALL && p->facet[s.next].gone ? other_side(p, s) : p->rims;
-        if (k == p->rims) {
-            p->rim[p->rims++] = s;
-            continue;
-        }
-        if (k < *looked) {
-            p->rim[k] = p->rim[--*looked];
-            k = *looked;
-        }
-        p->rim[k] = p->rim[--p->rims];
-    }
-}
-
 /* Of a t in the facet's plane, whether it is on the same side of the seam as the facet is. */
 static int is_on_side(const polytope *p, const facet *f, seam s, const tip *t)
 {
@@ -486,31 +469,71 @@ static real put_facet_on(polytope *p, seam r, int t)
     return put_facet(p, v);
 }
 
-/* Marks what t takes the place of: the facet, and around it all that go too. Returns how many. Their rim is what new
- * facets start from: each facet after the first adds one seam to it at most, so that there is room. */
-static int clear_way(polytope *p, int from, tip *t)
-{
-    int looked = 0, outs = 1;
-    p->rims = 0;
-    take_out(p, from, &looked);
-    while (looked < p->rims && p->rims + DIM <= p->most_facets) {
-        seam s = p->rim[looked];
-        if (s.next != WALL && !p->facet[s.next].gone && goes_too(p, &p->facet[s.next], s, t)) {
-            take_out(p, s.next, &looked);
-            outs++;
-        } else {
-            looked++;
-        }
-    }
-    return outs;
-}
-
 /* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
 static int seam_to(const polytope *p, int at, seam s)
 {
     int k = 0;
     while (k < DIM - 1 && p->facet[at].v[k] != s.v[DIM - 2]) k++;
     return k;
+}
+
+/* Drops the seam at that place of the rim. */
+static void drop_seam(polytope *p, int at)
+{
+    p->rims--;
+    for (int k = at; k < p->rims; k++) p->rim[k] = p->rim[k + 1];
+}
+
+/* Puts a seam at that place of the rim, before what is there. */
+static inline void put_seam(polytope *p, int at, seam s)
+{
+    for (int k = p->rims; k > at; k--) p->rim[k] = p->rim[k - 1];
+    p->rim[at] = s;
+    p->rims++;
+}
+
+/* Takes out the facet across the seam at that place of the rim, which its other seams take; but for those that were on
+ * the rim, which it has in common with others that are out. So the rim goes around what is out, each seam after the one
+ * that ends where it starts, as long as that has no holes. Returns the place. */
+static int take_out(polytope *p, int at)
+{
+    const seam s = p->rim[at];
+    const int i = seam_to(p, s.next, s);
+    int put = 0;
+    p->facet[s.next].gone = 1;
+    for (int k = DIM - 1; k > 0; k--) {
+        seam r = seam_of(p, s.next, i + k < DIM ? i + k : i + k - DIM);
+        int other = r.next != WALL && p->facet[r.next].gone ? other_side(p, r) : p->rims;
+        if (other < p->rims) {
+            drop_seam(p, other);
+            at -= other < at;
+        } else if (put++) {
+            put_seam(p, at, r);
+        } else {
+            p->rim[at] = r;
+        }
+    }
+    if (!put) drop_seam(p, at);
+    return at;
+}
+
+/* Marks what t takes the place of: the facet, and around it all that go too. Returns how many. Their rim is what new
+ * facets start from: each facet after the first adds one seam to it at most, so that there is room. */
+static int clear_way(polytope *p, int from, tip *t)
+{
+    int looked = 0, outs = 1;
+    p->facet[from].gone = 1;
+    for (p->rims = 0; p->rims < DIM; p->rims++) p->rim[p->rims] = seam_of(p, from, p->rims);
+    while (looked < p->rims && p->rims + DIM <= p->most_facets) {
+        seam s = p->rim[looked];
+        if (s.next != WALL && !p->facet[s.next].gone && goes_too(p, &p->facet[s.next], s, t)) {
+            looked = take_out(p, looked);
+            outs++;
+        } else {
+            looked++;
+        }
+    }
+    return outs;
 }
 
 /* The facet across seam i is to know this one by its place. */
@@ -536,11 +559,12 @@ static int seam_back(seam r) { return DIM == 2 ? 1 - r.v[1] : 2; }
 static int comes_before(seam r, seam other) { return DIM == 2 ? r.v[1] == 0 && other.v[1] == 1 : other.v[0] == r.v[1]; }
 
 /* Joins the facets that were put on the rim: the rim goes around, once or more often, so each has one before it and one
- * after it. Where tips are passed more often than once any pairing will do. */
+ * after it, which as a rule comes next. Where tips are passed more often than once any pairing will do. */
 static void join_all(polytope *p)
 {
     for (int a = 0; a < p->rims; a++)
-        for (int b = 0; b < p->rims; b++) {
+        for (int n = 0, b = a; n < p->rims; n++) {
+            b = b + 1 < p->rims ? b + 1 : 0;
             seam from = p->rim[a], to = p->rim[b];
             if (!comes_before(from, to)) continue;
             int16_t *next = &p->facet[from.of].next[seam_there(from)], *back = &p->facet[to.of].next[seam_back(to)];
