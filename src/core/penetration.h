@@ -274,11 +274,9 @@ static inline vec own_way(const depth *d, const tip *from, const tip *to)
     return add(way, rest);
 }
 
-/* Places a rough facet to all digits: its normal is that of its tips without rounding, rounded; its height is rough. */
-static void polish_facet(depth *d, facet *f)
+/* The unit normal of the facet between these tips, which is not thin, without what their corners round. */
+static vec own_normal(const depth *d, const tip *const t[DIM])
 {
-    const tip *t[DIM];
-    for (int i = 0; i < DIM; i++) t[i] = &d->p.tip[f->v[i]];
 #if DIM == 2
     vec e = own_way(d, t[0], t[1]), n = {{e.c[1], -e.c[0]}};
 #else
@@ -289,7 +287,15 @@ static void polish_facet(depth *d, facet *f)
     const int k = s0 >= s1 && s0 >= s2 ? 2 : s1 >= s2 ? 0 : 1;
     vec n = cross(own_way(d, t[k], t[(k + 1) % 3]), own_way(d, t[k], t[(k + 2) % 3]));
 #endif
-    f->n = mul(n, 1 / length(n));
+    return mul(n, 1 / length(n));
+}
+
+/* Places a rough facet to all digits: its normal is its own, rounded; its height is rough. */
+static void polish_facet(depth *d, facet *f)
+{
+    const tip *t[DIM];
+    for (int i = 0; i < DIM; i++) t[i] = &d->p.tip[f->v[i]];
+    f->n = own_normal(d, t);
     f->height = dot(f->n, t[0]->w);
     for (int i = 1; i < DIM; i++) f->height = smaller(dot(f->n, t[i]->w), f->height);
     f->rough = POLISHED;
@@ -311,6 +317,34 @@ static void bound_along(depth *d, vec n)
     if (!(lower > d->q->lower)) return;
     d->q->lower = lower;
     d->q->normal = n;
+}
+
+/* ---- contact ---- */
+
+/* Whether the cores, which meet, go no deeper along n than n rounds. */
+static int is_flush(depth *d, vec n)
+{
+    if (!d->q->met || d->g->tight || !(peak(n) <= 1 + 8 * UNIT)) return 0;
+    bound_along(d, n);
+    return d->q->lower >= -4096 * UNIT * UNIT;
+}
+
+/* The same along the way that is known best, or off the simplex that holds the origin: away from A's position first. */
+static int is_contact(depth *d)
+{
+    const simplex *s = &d->q->s;
+    tip own[DIM];
+    const tip *t[DIM];
+    if (!d->q->met || !d->g->exact) return 0;
+    if (d->q->lower >= -2 * d->q->d.doubt && is_flush(d, d->q->normal)) return 1;
+    if (s->n != DIM) return 0;
+    for (int i = 0; i < DIM; i++) {
+        own[i] = tip_of(corner(s, i), 1);
+        t[i] = &own[i];
+    }
+    vec n = own_normal(d, t);
+    if (dot(n, d->q->d.c) < 0) n = mul(n, -1);
+    return is_flush(d, n) || is_flush(d, mul(n, -1));
 }
 
 /* ---- the first surface ---- */
@@ -357,7 +391,7 @@ static real rise_over_tips(const polytope *p, vec n, const tip *t)
 static vec way_off(const polytope *p, int i) { return mul(off_tips(p, i / 2), i & 1 ? (real)-1 : (real)1); }
 
 /* Adds the corner farthest off the tips so far; the first that is far enough will do. STILL: there is none beyond
- * rounding, the difference is flat. */
+ * rounding, the difference is flat. CLOSE: the cores only touch. */
 static enum end spread_out(depth *d)
 {
     polytope *p = &d->p;
@@ -370,6 +404,7 @@ static enum end spread_out(depth *d)
         if (!(peak(n) > 0)) continue;
         if (d->q->steps >= d->g->max_steps) return OPEN;
         if (!ask_along(d, n, &t)) return FAULT;
+        if (d->g->exact && dot(n, t.w) <= 32 * UNIT && is_flush(d, n)) return CLOSE;
         sharpen_tip(p, &t);
         real off = rise_over_tips(p, n, &t);
         if (!(off > most)) continue;
@@ -416,10 +451,11 @@ static void take_simplex(depth *d)
     }
 }
 
-/* STILL: the difference is flat, there is no surface. */
+/* STILL: the difference is flat, there is no surface. CLOSE: the cores only touch, none is needed. */
 static enum end first_surface(depth *d)
 {
     polytope *p = &d->p;
+    if (is_contact(d)) return CLOSE;
     take_simplex(d);
     while (p->tips <= DIM) {
         int before = p->tips;
