@@ -114,6 +114,35 @@ static listing corners_of(const shape *s)
 
 static inline vec nth_of(const listing *l, size_t n) { return load(l->v + n * l->step); }
 
+/* Corners that may be the highest. */
+#define HELD 8
+typedef struct held {
+    const real *at[HELD];
+    real about[HELD];
+    int n;
+} held;
+
+static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.high == k.high && h.low < k.low); }
+
+/* Which of these is the highest along g in truth, the first of equals; those that are about lower than least are not.
+ * It is the only one that is held then. */
+static twin settle_held(held *s, const slope g[DIM], real grain, real least)
+{
+    twin most = {-REAL_MAX, 0};
+    int best = 0;
+    for (int k = 0; k < s->n; k++) {
+        if (s->about[k] < least) continue;
+        twin h = height_along(g, mul(load(s->at[k]), grain));
+        if (!is_lower_twin(most, h)) continue;
+        most = h;
+        best = k;
+    }
+    s->at[0] = s->at[best];
+    s->about[0] = s->about[best];
+    s->n = 1;
+    return most;
+}
+
 /* Of the body's corners the one farthest along g, and its height from the body's own origin. Rounded heights tell which
  * it can't be. */
 static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], vec *x)
@@ -127,18 +156,19 @@ static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], v
     }
     const listing l = corners_of(s);
     const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
-    twin most = {-REAL_MAX, 0};
     real least = -REAL_MAX;
+    held some;
+    some.n = 0;
     for (size_t i = 0; i < l.count; i++, at += l.step) {
-        vec c = mul(load(at), grain);
-        real about = dot(c, rough);
+        real about = dot(mul(load(at), grain), rough);
         if (about < least) continue;
         least = larger(about - margin, least);
-        twin h = height_along(g, c);
-        if (!(h.high > most.high || (h.high == most.high && h.low > most.low))) continue;
-        most = h;
-        *x = load(at);
+        if (some.n == HELD) settle_held(&some, g, grain, least);
+        some.at[some.n] = at;
+        some.about[some.n++] = about;
     }
+    twin most = settle_held(&some, g, grain, least);
+    *x = load(some.at[0]);
     return most;
 }
 
@@ -181,8 +211,6 @@ static twin fine_height(depth *d, vec n, vertex *c)
     twin x = farthest_corner(&f->a, d->a, d->sight.a, &c->x);
     return height_between(&d->sight, x, farthest_corner(&f->b, d->b, d->sight.b, &c->y));
 }
-
-static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.high == k.high && h.low < k.low); }
 
 /* The least height of the facet's corners, along its normal, which is looked along. */
 static twin floor_seen(const depth *d, const facet *f)
@@ -611,9 +639,11 @@ static int is_beyond(depth *d, facet *f, tip *t)
     if (!d->g->exact) return 0;
     if (f->rough == ROUGH) polish_facet(d, f);
     fine_bound(d, f->n, &c);
+    for (int i = 0; i < DIM; i++)
+        if (same(d->p.tip[f->v[i]].x, c.x) && same(d->p.tip[f->v[i]].y, c.y)) return 0;
     c.w = corner_of(&d->q->d, c.x, c.y);
     *t = tip_of(&c, 1);
-    return !is_tip_of(&d->p, f, t) && sees(&d->p, f, t) && !is_known(&d->p, t);
+    return sees(&d->p, f, t) && !is_known(&d->p, t);
 }
 
 /* Takes in the corner beyond the facet, or the facet is done. CLOSE: what lies there is of no account; the bound from
