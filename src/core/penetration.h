@@ -8,7 +8,7 @@
 #ifndef GJK_CORE_PENETRATION_H
 #define GJK_CORE_PENETRATION_H
 
-#include "distance.h"
+#include "listed.h"
 #include "polytope.h"
 #include "tight.h"
 
@@ -60,7 +60,9 @@ static int ask_along(depth *d, vec n, tip *t)
     vertex c;
     vec v = mul(n, -1);
     d->q->steps++;
-    if (!ask(&d->q->d, v, &c)) return 0;
+    difference *f = &d->q->d;
+    int plain = !f->wild && f->a.asked != BY_CALL && f->b.asked != BY_CALL;
+    if (!(plain ? ask_plainly(f, v, 1, &c) : ask(f, v, &c))) return 0;
     raise(d->q, v, c.w);
     *t = tip_of(&c, d->g->exact);
     return 1;
