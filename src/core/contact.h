@@ -153,9 +153,10 @@ static real hand_over(const depth *d, real weight[DIM + 1])
     for (int i = 0; i < USUAL_TIPS && dot(v, v) > (under ? 16 : (real)0.25) * (UNIT * UNIT); i++) {
         tip t = level_tip(d, v);
         simplex before = *s;
+        real own[DIM + 1];
         if (!is_level(d, &t) || !(dot(v, sub(t.w, foot)) < dot(v, v))) break;
         take_tip(s, &t, foot);
-        vec better = s->n <= DIM ? nearest(s) : nearest_of_all(s, 0, 0, 0);
+        vec better = s->n <= DIM ? nearest(s, own) : nearest_of_all(s, 0, 0, 0);
         if (!(dot(better, better) < dot(v, v))) {
             *s = before;
             break;
