@@ -371,6 +371,13 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     }
     enum end end = stroll(q, g);
     q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
+    int open = end == OPEN && q->steps < g->max_steps && q->vv > 16 * UNIT * UNIT;
+    if (!q->told && (end == STILL || open)) {
+        know_offset(&q->d, a, b);
+        q->told = tell_near(q, a, b, g, r);
+        if (q->told && open) r->steps = ++q->steps;
+        if (q->told) end = STILL;
+    }
     if (q->told && o->cache) remember(o->cache, q, a, b);
     return end;
 }
