@@ -234,7 +234,7 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     enum end end = fathom(&d, upper, weight);
     if (end == FAULT || !(q->lower <= *upper)) return FAULT;
     bracket(r, &q->d, q->lower, *upper, a, b);
-    r->value = middle(q, g, *upper);
+    r->value = middle(q, g, d.near);
     if (d.settled) {
         r->lower = d.ends[0];
         r->value = d.ends[1];

@@ -275,6 +275,8 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
         settle_anew(d, &end);
         prove(d, upper);
     }
+    /* of smooth shapes a bound from below is nearer than a surface that is not done */
+    d->near = end == OPEN && !g->exact ? smaller(d->q->lower + 2 * d->q->d.doubt, *upper) : *upper;
     if (d->settled) d->q->normal = d->normal;
     if (flat || !d->floor) return end;
     if (end == OPEN) turn_to_normal(d);

@@ -42,6 +42,7 @@ typedef struct depth {
     vec along;          /* the direction asked last, of known corners to all digits, */
     real below;         /*   and the bound from below that it gave */
     sight sight;        /* and what is looked along */
+    real near;          /* the value is in the middle between there and the bound from below */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
     real ends[3];       /* the bracket of the separation then, radii included, and the value */
     vec normal;         /* that goes with it */
@@ -685,16 +686,47 @@ static void make_room(depth *d)
     forget_tips(&d->p);
 }
 
+/* So often a direction is turned on the way down. */
+#define TURNS 16
+
+/* Where facets are used up: turns the way that is known best to where the height is least nearby, by how the corners
+ * there have moved sideways (Barzilai, Borwein 1988). Raises the bound from below. 0: a support's answer was none. */
+static int walk_down(depth *d, vec n)
+{
+    search *q = d->q;
+    vec turn = axis(0, 0), last = turn;
+    real share = 1;
+    for (int i = 0; i < TURNS && q->steps < d->g->max_steps; i++) {
+        tip t;
+        if (!ask_along(d, n, &t)) return 0;
+        vec aside = sub(t.w, mul(n, dot(n, t.w))), moved = sub(aside, last);
+        real bend = dot(turn, moved), far = length(aside);
+        if (i > 0) share = bend > 0 ? dot(turn, turn) / bend : 2 * share;
+        if (!(share * far * far > q->d.doubt)) break;
+        vec next = sub(n, mul(aside, smaller(share, (real)0.25 / far)));
+        next = mul(next, 1 / length(next));
+        turn = sub(next, n);
+        last = aside;
+        n = next;
+    }
+    return 1;
+}
+
 /* STILL: nothing lies beyond the lowest facet. CLOSE: as tight as asked. OPEN: steps or workspace are used up. */
 static enum end deepen(depth *d)
 {
-    for (;;) {
+    for (int walked = d->g->exact;;) {
         if (d->p.tips == d->p.most_tips) make_room(d);
         facet *f = lowest(&d->p);
         d->floor = f;
         if (f->done) return STILL;
         if (d->q->steps >= d->g->max_steps) return OPEN;
         enum end end = look_beyond(d, f);
+        if (end == OPEN && !walked) {
+            if (!walk_down(d, d->q->normal) || !walk_down(d, f->n)) return FAULT;
+            walked = 1;
+            continue;
+        }
         if (end != STILL) return end;
     }
 }
