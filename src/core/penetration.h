@@ -25,12 +25,12 @@ typedef struct slope {
 } slope;
 
 /* What heights along a direction are made of. */
-typedef struct sight {
+typedef struct outlook {
     vec n;                /* unit to rounding; 0: none yet */
     slope a[DIM], b[DIM]; /* n as A sees it, and -n as B does */
     twin apart;           /* the height of -c along n */
     real excess;          /* of |n| above 1 */
-} sight;
+} outlook;
 
 typedef struct depth {
     search *q;
@@ -41,7 +41,7 @@ typedef struct depth {
     tally dropped;      /* of facets that the surface has but the polytope no longer */
     vec along;          /* the direction asked last, of known corners to all digits, */
     real below;         /*   and the bound from below that it gave */
-    sight sight;        /* and what is looked along */
+    outlook sight;      /* and what is looked along */
     real near;          /* the value is in the middle between there and the bound from below */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
     real ends[3];       /* the bracket of the separation then, radii included, and the value */
@@ -179,7 +179,7 @@ static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], v
 static void look_along(depth *d, vec n)
 {
     const difference *f = &d->q->d;
-    sight *s = &d->sight;
+    outlook *s = &d->sight;
     halves h[DIM], back[DIM];
     twin square = {-1, 0}, apart = {0, 0};
     if (same(n, s->n)) return;
@@ -198,7 +198,7 @@ static void look_along(depth *d, vec n)
 }
 
 /* The height of A - B's points x - y, of these heights along what is looked along. */
-static inline twin height_between(const sight *s, twin x, twin y)
+static inline twin height_between(const outlook *s, twin x, twin y)
 {
     twin h = x;
     gather(&h, y);
