@@ -79,6 +79,12 @@ static inline int is_scale_free(const goal *g)
     return !g->early && g->radius == 0 && (g->beyond == 0 || g->beyond == REAL_MAX);
 }
 
+/* The full simplex leaves so much room that depth is all that is left to ask, and needs no pair of points. */
+static inline int is_depth_alone(const search *q, const goal *g)
+{
+    return g->deep && g->exact && !g->tight && !(q->lower > 0) && q->inside > 64 * q->d.doubt;
+}
+
 /* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation;
  * FAULT also where the bounds cross, which points of two convex sets never do. */
 static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
@@ -92,6 +98,10 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         end = walked;
         if (end == STILL && !q->repeated && !g->sign_only) q->stuck = is_lower(q);
         if (end == OPEN && q->steps < g->max_steps) end = descend(q, &here);
+        if (walked == INSIDE && is_depth_alone(q, g)) {
+            *upper = q->d.doubt - q->inside;
+            return end;
+        }
         end = sharpen_on(q, &here, end, upper, weight);
         if (walked != INSIDE && end == INSIDE) q->inside = room(&q->s);
         if (end == INSIDE && q->inside > q->d.doubt) *upper = q->d.doubt - q->inside;
