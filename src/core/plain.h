@@ -59,7 +59,7 @@ static inline int is_proven_beyond(search *q, real height, real beyond)
 }
 
 /* Most of what a step costs is asking. */
-static inline int is_long_way(const difference *d) { return !d->wild && (is_long(&d->a) || is_long(&d->b)); }
+static inline int is_long_way(const difference *d) { return is_long(&d->a) || is_long(&d->b); }
 
 /* A step of an approach. 0: v would not come near by half. */
 static int come_near(search *q, int max_steps)
