@@ -369,6 +369,17 @@ static int is_to_last_place(const result *r)
     return r->upper - r->lower <= 8 * UNIT * larger(size(r->lower), size(r->upper)) + 8 * TINY;
 }
 
+/* Where the walk stops at a corner that it does not take in, or one that brings v no nearer: contact of few digits, or
+ * a gap that rounding all but blurs. */
+static int tell_closely(search *q, const shape *a, const shape *b, const goal *g, int open, result *r)
+{
+    know_offset(&q->d, a, b);
+    if (open && !g->deep && tell_touch(q, a, b, r)) return 1;
+    if (!tell_near(q, a, b, g, r)) return 0;
+    r->steps = q->steps += open;
+    return 1;
+}
+
 /* The everyday way, of sets whose corners are known. How far it led; FAULT: nowhere. q->told: to the answer. */
 static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
@@ -381,13 +392,9 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     }
     enum end end = stroll(q, g);
     q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
-    int open = end == OPEN && q->steps < g->max_steps && q->vv > 16 * UNIT * UNIT;
-    if (!q->told && (end == STILL || open)) {
-        know_offset(&q->d, a, b);
-        q->told = tell_near(q, a, b, g, r);
-        if (q->told && open) r->steps = ++q->steps;
-        if (q->told) end = STILL;
-    }
+    int open = end == OPEN && q->steps < g->max_steps;
+    if (!q->told && (end == STILL || open)) q->told = tell_closely(q, a, b, g, open, r);
+    if (q->told && open) end = STILL;
     if (q->told && o->cache) remember(o->cache, q, a, b);
     return end;
 }

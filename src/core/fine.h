@@ -200,7 +200,7 @@ typedef struct vec_twin {
 /* What is seen from one set to the other. */
 typedef struct sight {
     vec_twin way; /* from B to A: of the difference the point that the weights single out */
-    vec x, y, w;  /* that point, rounded, and those of the sets, times their grain */
+    vec x, y;     /* the sets' points there, rounded, times their grain */
     vec_twin edge_a[DIM + 1], edge_b[DIM + 1]; /* from the simplex's first corner to the others, of each body */
     real rise_a[DIM + 1], rise_b[DIM + 1];     /* how far up the way these lead */
     real moved;                                /* by how much the weights were changed */
@@ -283,20 +283,19 @@ static void look_across(sight *e, const search *q)
         e->way.high.c[i] = s.high;
         e->way.low.c[i] = s.low;
     }
-    e->w = e->way.high;
     e->moved = e->turned = 0;
 }
 
 /* Takes what leads so far up the way off it, by the simplex's edges; the weights then are those of the point that it
- * leads to. 0: the simplex is too narrow. */
-static int turn(sight *e, int n, const real rise[DIM + 1], vec *off)
+ * leads to. 0: the simplex is too narrow, or the pair is not where the weights were thought to have it. */
+static int turn(sight *e, const search *q, const real rise[DIM + 1], vec *off)
 {
     vec a = sub(e->edge_a[1].high, e->edge_b[1].high);
     real share[3] = {0, 0, 0}, aa = dot(a, a);
     share[1] = rise[1] / aa;
     *off = mul(a, share[1]);
 #if DIM == 3
-    if (n == 3) {
+    if (q->s.n == 3) {
         vec b = sub(e->edge_a[2].high, e->edge_b[2].high);
         real bb = dot(b, b), ab = dot(a, b), whole = aa * bb - ab * ab;
         if (!(whole > NARROW * aa * bb)) return 0;
@@ -305,7 +304,7 @@ static int turn(sight *e, int n, const real rise[DIM + 1], vec *off)
         *off = add(mul(a, share[1]), mul(b, share[2]));
     }
 #endif
-    for (int i = 1; i < n; i++) {
+    for (int i = 1; i < q->s.n; i++) {
         e->weight[i] -= share[i];
         e->weight[0] += share[i];
         e->moved += size(share[i]);
@@ -315,7 +314,7 @@ static int turn(sight *e, int n, const real rise[DIM + 1], vec *off)
         e->way.high.c[i] = s.high;
         e->way.low.c[i] = s.low;
     }
-    return e->moved < 1;
+    return spread(*off) <= 32 * UNIT;
 }
 
 /* Makes the way square to the simplex's edges: in plain numbers, and once more for what these leave of it. */
@@ -330,13 +329,13 @@ static int make_square(sight *e, const search *q)
         e->edge_b[i] = edge_between(&q->d.b, p->y, corner(&q->s, i)->y);
         rise[i] = dot(e->way.high, sub(e->edge_a[i].high, e->edge_b[i].high));
     }
-    if (!turn(e, q->s.n, rise, &off)) return 0;
+    if (!turn(e, q, rise, &off)) return 0;
     for (int i = 1; i < q->s.n; i++) {
         e->rise_a[i] = rise_along(&e->way, &e->edge_a[i]);
         e->rise_b[i] = rise_along(&e->way, &e->edge_b[i]);
         rise[i] = e->rise_a[i] - e->rise_b[i];
     }
-    if (!turn(e, q->s.n, rise, &off)) return 0;
+    if (!turn(e, q, rise, &off)) return 0;
     for (int i = 1; i < q->s.n; i++) {
         e->rise_a[i] -= dot(off, e->edge_a[i].high);
         e->rise_b[i] -= dot(off, e->edge_b[i].high);
@@ -430,11 +429,18 @@ static real rescaled(real bound, real unscale, real way_out)
     return size(r) < REAL_MIN ? r + way_out * 2 * TINY : r;
 }
 
+/* The corner in the spare slot lies lower along v than the simplex by so little at most that the simplex may do. */
+static int is_about_lowest(const search *q, const goal *g)
+{
+    real height = dot(q->v, corner(&q->s, q->s.n)->w), gap = q->vv - height;
+    return height > 0 && (g->sign_only || !(gap * gap > 16 * UNIT * UNIT * q->vv));
+}
+
 /* The distance or its sign, where the walk has come to its end. 0: the bounds do not tell enough. */
 static APART int tell_near(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     sight e;
-    if (q->s.n > DIM || q->s.n == 0) return 0;
+    if (q->s.n > DIM || q->s.n == 0 || !is_about_lowest(q, g)) return 0;
     weigh(&q->s, e.weight);
     look_across(&e, q);
     if (!make_square(&e, q) || !is_amid(e.weight, q->s.n)) return 0;
@@ -452,7 +458,36 @@ static APART int tell_near(search *q, const shape *a, const shape *b, const goal
     r->lower = rescaled(lower, q->d.unscale, -1);
     r->upper = rescaled(upper, q->d.unscale, 1);
     EACH(q->normal.c[i] = 0 - e.way.high.c[i] / l.high);
-    place_points(r, q, e.x, e.y, e.w, a, b, 0);
+    place_points(r, q, e.x, e.y, e.way.high, a, b, 0);
+    store(r->normal, q->normal);
+    r->steps = q->steps;
+    r->supports = q->d.calls;
+    r->reserved = 0;
+    return 1;
+}
+
+/* That the cores meet, where the corner in the spare slot makes the simplex hold the origin, with nothing rounded. 0:
+ * that is not told, and the simplex is as it was. */
+static APART int tell_touch(search *q, const shape *a, const shape *b, result *r)
+{
+    real weight[DIM + 1];
+    int at[DIM + 1], n = q->s.n;
+    if (n > DIM) return 0;
+    memcpy(at, q->s.at, sizeof at);
+    q->s.n++;
+    if (!holds_origin_plainly(&q->d, &q->s, a, b, weight)) {
+        q->s.n = n;
+        return 0;
+    }
+    raise(q, q->v, q->s.slot[at[n]].w);
+    q->borrowed &= ~(1u << at[n]);
+    q->pending = 0;
+    q->steps++;
+    vec x = blend(&q->s, weight, offsetof(vertex, x), q->d.a.grain);
+    vec y = blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain);
+    bracket(r, &q->d, q->lower, 0, a, b);
+    r->value = 0;
+    place_points(r, q, x, y, axis(0, 0), a, b, 0);
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;

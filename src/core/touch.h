@@ -252,12 +252,141 @@ static int is_blurred(const spans *w)
     return r;
 }
 
-/* The same of a search's corners without rounding. */
+/* ---- the same in plain numbers, of corners with so few digits that nothing is rounded ---- */
+
+/* Of binary places, in the frame: a map's and a point's, so that their products' sums are exact; and a
+ * corner's, so that determinants are. */
+#define FEW ((MANTISSA - 1) / 2)
+#define FEWER ((MANTISSA - 4) / DIM)
+
+/* x is a whole multiple of 2^-places times that power of two. */
+static inline int is_short(real x, int places, real power)
+{
+    real big = (real)((bits)3 << (MANTISSA - places - 1)) * power;
+    return (x + big) - big == x;
+}
+
+/* The body's map is short, for its size; to which it came without rounding where sizes are plain. */
+static int is_map_short(const body *k)
+{
+    int r = 1;
+    real power = 2 / leveler(k->norm);
+    for (int i = 0; i < DIM * DIM && k->posed; i++) r &= is_short(k->m[i], FEW, power);
+    return r;
+}
+
+/* So are the simplex's points of the body, before such a map, and they came there whole. Those of a box differ in
+ * signs. */
+static inline int are_points_short(const body *k, const simplex *s, size_t member)
+{
+    int r = 1, n = k->asked == AS_BOX ? 1 : s->n;
+    real power = leveler(k->norm) / 2;
+    for (int j = 0; j < n; j++) {
+        vec x = member_of(corner(s, j), member), y = mul(x, k->grain);
+        EACH(r &= is_short(y.c[i], FEW, power) & ((y.c[i] != 0) | (x.c[i] == 0)));
+    }
+    return r;
+}
+
+static inline int are_corners_short(const simplex *s)
+{
+    int r = 1;
+    for (int j = 0; j < s->n; j++) {
+        vec w = point(s, j);
+        EACH(r &= is_short(w.c[i], FEWER, 1));
+    }
+    return r;
+}
+
+/* So is the way between the positions. */
+static inline int is_way_short(const difference *d)
+{
+    int r = 1;
+    EACH(r &= is_short(d->c.c[i], 2 * FEW, 1) & (d->c_low.c[i] == 0));
+    return r;
+}
+
+/* As weigh_spans. */
+static int weigh_plainly(const simplex *s, real weight[DIM + 1])
+{
+    vec p = point(s, 0), q = point(s, s->n > 1 ? 1 : 0), r = point(s, s->n > 2 ? 2 : 0);
+    weight[0] = 1;
+    if (s->n == 1) return !(peak(p) > 0);
+#if DIM == 2
+    if (s->n == 2) {
+        int k = size(q.c[0] - p.c[0]) > size(q.c[1] - p.c[1]) ? 0 : 1;
+        weight[0] = q.c[k];
+        weight[1] = -p.c[k];
+        return cross(p, q) == 0;
+    }
+    weight[0] = cross(q, r);
+    weight[1] = cross(r, p);
+    weight[2] = cross(p, q);
+    return 1;
+#else
+    vec n = cross(p, q);
+    if (s->n == 2) {
+        int k = peak_at(sub(q, p));
+        weight[0] = q.c[k];
+        weight[1] = -p.c[k];
+        return !(peak(n) > 0);
+    }
+    if (s->n == 3) {
+        int k = peak_at(cross(sub(q, p), sub(r, p)));
+        weight[0] = cross(q, r).c[k];
+        weight[1] = cross(r, p).c[k];
+        weight[2] = n.c[k];
+        return dot(n, r) == 0;
+    }
+    vec t = point(s, 3), m = cross(r, t);
+    weight[0] = dot(m, q);
+    weight[1] = -dot(m, p);
+    weight[2] = dot(n, t);
+    weight[3] = -dot(n, r);
+    return 1;
+#endif
+}
+
+/* Whether the simplex, of corners as corner_of places them, holds the origin, if that can be told in plain numbers.
+ * Then it keeps the corners that carry it, with their weights. */
+static int holds_origin_plainly(const difference *d, simplex *s, const shape *a, const shape *b, real weight[DIM + 1])
+{
+    real share[DIM + 1];
+    int low = 0, high = 0;
+    unsigned mask = 0;
+    if (!are_corners_short(s) || !weigh_plainly(s, share) || !is_way_short(d) || !is_way_whole(d, a, b)) return 0;
+    if (!are_points_short(&d->a, s, offsetof(vertex, x)) || !are_points_short(&d->b, s, offsetof(vertex, y))) return 0;
+    if (!is_map_short(&d->a) || !is_map_short(&d->b)) return 0;
+    for (int i = 0; i < s->n && d->wild; i++)
+        if (!is_map_whole(&d->a, a, corner(s, i)->x) || !is_map_whole(&d->b, b, corner(s, i)->y)) return 0;
+    for (int i = 0; i < s->n; i++) {
+        low |= share[i] < 0;
+        high |= share[i] > 0;
+        mask |= share[i] != 0 ? 1u << i : 0;
+    }
+    if (low == high) return 0;
+    for (int i = 0, n = 0; i < s->n; i++)
+        if (mask >> i & 1) weight[n++] = size(share[i]);
+    keep(s, mask);
+    normalize(weight, s->n);
+    return 1;
+}
+
+/* Whether the simplex holds the origin, told in plain numbers or else in spans. */
 static int holds_origin(search *q, const shape *a, const shape *b, real weight[DIM + 1])
 {
     spans w[DIM + 1];
     simplex *s = &q->s;
     if (s->n <= DIM && q->vv > q->d.doubt * q->d.doubt) return 0;
+    simplex fresh = *s;
+    for (int i = 0; i < s->n; i++) {
+        vertex *p = &fresh.slot[s->at[i]];
+        p->w = corner_of(&q->d, p->x, p->y);
+    }
+    if (holds_origin_plainly(&q->d, &fresh, a, b, weight)) {
+        *s = fresh;
+        return 1;
+    }
     if (!is_way_whole(&q->d, a, b)) return 0;
     for (int i = 0; i < s->n && q->d.wild; i++)
         if (!is_map_whole(&q->d.a, a, corner(s, i)->x) || !is_map_whole(&q->d.b, b, corner(s, i)->y)) return 0;
