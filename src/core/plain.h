@@ -102,7 +102,8 @@ static enum end stroll(search *q, const goal *g)
         q->pending = 1;
         if (tolerant) raise(q, v, last->w);
         if (sought && is_proven_beyond(q, height, g->beyond)) end = BEYOND;
-        else if (q->s.n > 0 && (is_repeated(q) || !(q->vv - height > noise_along(v, last->w)))) end = STILL;
+        else if (q->s.n > 0 && (is_repeated(q) || !(q->vv - height > noise_along(v, last->w))))
+            end = g->early && judge(q, g) == WITHIN ? WITHIN : STILL; /* of a simplex lent, which nobody has judged */
         else if (!step_plainly(q)) return OPEN;
         q->steps++;
         if (q->s.n > DIM) end = INSIDE;
@@ -225,10 +226,12 @@ static inline twin length_to_twice(vec w, vec low)
 }
 
 /* What the bounds and the pair tell; upper is of the cores. */
-static inline void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, result *r)
+static inline void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, int deep,
+                         result *r)
 {
     bracket(r, &q->d, q->lower, upper, a, b);
-    place_pair(r, q, p->x, p->y, p->w, a, b);
+    if (deep) place_points(r, q, p->x, p->y, p->w, a, b, 2);
+    else place_pair(r, q, p->x, p->y, p->w, a, b);
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;
@@ -238,9 +241,10 @@ static inline void spell(const search *q, const shape *a, const shape *b, real u
 /* The walk came so far with a gap that rounding does not blur, and this is a pair as near as v. */
 static inline int is_evident(const search *q, const goal *g, enum end end, const closest *p, real upper)
 {
-    real doubt = q->d.doubt, width = upper - q->lower;
+    real doubt = q->d.doubt, width = upper - q->lower, blur = 32 * doubt + 16 * UNIT * g->radius;
+    int deep = g->deep && q->lower > 32 * doubt && upper < g->radius - blur; /* but only the radii overlap */
     if (end == WITHIN) return upper < g->within;
-    if (!(q->lower > g->radius + 32 * doubt + 16 * UNIT * g->radius)) return 0;
+    if (!(q->lower > g->radius + blur) && !deep) return 0;
     if (end == CLOSE) return width <= asked_of(g, upper);
     return end == BEYOND || (end == STILL && peak(sub(p->w, q->v)) <= 8 * UNIT && width <= 4 * doubt);
 }
@@ -263,7 +267,7 @@ static void tell_overlap(search *q, const shape *a, const shape *b, enum end end
 {
     closest p = pair_of(q);
     real upper = end == INSIDE ? q->d.doubt - q->inside : length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
-    spell(q, a, b, upper, &p, r);
+    spell(q, a, b, upper, &p, 0, r);
     if (end == INSIDE && !(peak(p.w) <= 8 * UNIT)) r->upper = 0; /* the pair is none */
 }
 
@@ -287,7 +291,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
     if (end == STILL && g->deep) point_along(q, add(p.w, low));
     twin l = length_to_twice(p.w, low), value = sum_of(l.high, -g->radius);
     r->value = (value.high + (value.low + l.low)) * q->d.unscale;
-    spell(q, a, b, upper, &p, r);
+    spell(q, a, b, upper, &p, g->deep && upper < g->radius, r);
     return 1;
 }
 
@@ -295,7 +299,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
 static void tell_apart(search *q, const shape *a, const shape *b, result *r)
 {
     closest p = last_of(q);
-    spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, r);
+    spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, 0, r);
     if (!(r->lower > 0) && q->s.n == 0) step_plainly(q);
     q->pending = q->s.n == 0;
 }

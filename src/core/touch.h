@@ -256,8 +256,8 @@ static int is_blurred(const spans *w)
 
 /* Of binary places, in the frame: a map's and a point's, so that their products' sums are exact; and a
  * corner's, so that determinants are. */
-#define FEW ((MANTISSA - 1) / 2)
-#define FEWER ((MANTISSA - 4) / DIM)
+#define SHORT ((MANTISSA - 1) / 2)
+#define SHORTER ((MANTISSA - 4) / DIM)
 
 /* x is a whole multiple of 2^-places times that power of two. */
 static inline int is_short(real x, int places, real power)
@@ -271,7 +271,7 @@ static int is_map_short(const body *k)
 {
     int r = 1;
     real power = 2 / leveler(k->norm);
-    for (int i = 0; i < DIM * DIM && k->posed; i++) r &= is_short(k->m[i], FEW, power);
+    for (int i = 0; i < DIM * DIM && k->posed; i++) r &= is_short(k->m[i], SHORT, power);
     return r;
 }
 
@@ -283,7 +283,7 @@ static inline int are_points_short(const body *k, const simplex *s, size_t membe
     real power = leveler(k->norm) / 2;
     for (int j = 0; j < n; j++) {
         vec x = member_of(corner(s, j), member), y = mul(x, k->grain);
-        EACH(r &= is_short(y.c[i], FEW, power) & ((y.c[i] != 0) | (x.c[i] == 0)));
+        EACH(r &= is_short(y.c[i], SHORT, power) & ((y.c[i] != 0) | (x.c[i] == 0)));
     }
     return r;
 }
@@ -293,7 +293,7 @@ static inline int are_corners_short(const simplex *s)
     int r = 1;
     for (int j = 0; j < s->n; j++) {
         vec w = point(s, j);
-        EACH(r &= is_short(w.c[i], FEWER, 1));
+        EACH(r &= is_short(w.c[i], SHORTER, 1));
     }
     return r;
 }
@@ -302,7 +302,7 @@ static inline int are_corners_short(const simplex *s)
 static inline int is_way_short(const difference *d)
 {
     int r = 1;
-    EACH(r &= is_short(d->c.c[i], 2 * FEW, 1) & (d->c_low.c[i] == 0));
+    EACH(r &= is_short(d->c.c[i], 2 * SHORT, 1) & (d->c_low.c[i] == 0));
     return r;
 }
 
