@@ -203,7 +203,7 @@ static int draw_simplex(void)
 /* Room is less than there is. */
 static void rough_rooms(void **state)
 {
-    int held = 0, above = 0;
+    int count = 0, above = 0;
     (void)state;
     state_of_draws = 1;
     for (int k = 0; k < 50 * PAIRS; k++) {
@@ -211,15 +211,15 @@ static void rough_rooms(void **state)
         if (!draw_simplex()) {
             continue;
         }
-        held++;
+        count++;
         rough = rough_room(&q.s, q.weight);
         for (int i = 0; i <= DIM && rough > 0; i++) {
             assert_true((quad)rough * (quad)rough <= height_over(i));
         }
         above += rough > 0;
     }
-    printf("%d simplices hold the origin, %d with room\n", held, above);
-    assert_true(above > held / 8 && above < held);
+    printf("%d simplices hold the origin, %d with room\n", count, above);
+    assert_true(above > count / 8 && above < count);
 }
 
 /* The pair that the weights single out is v, to 8 roundings of the frame; else the weights are not good enough, however

@@ -451,14 +451,15 @@ static APART int tell_near(search *q, const shape *a, const shape *b, const goal
     real low = high + 768 * rounded + 64 * UNIT * e.turned / l.high + short_of_way(&e, q, l.high);
     real lower = below_gap(l, low, radius_a, radius_b);
     real upper = -below_gap((twin){-l.high, -l.low}, high, -radius_a, -radius_b);
-    if (!(lower > 0) && !(upper < 0 && !g->deep)) return 0;
+    int deep = g->deep && upper < 0; /* but only the radii overlap */
+    if (!(lower > 0) && !(upper < 0 && (!g->deep || l.high > 2 * low))) return 0;
     if (!g->sign_only && !(low + high <= UNIT / 4 * size_at(q))) return 0;
     twin sum = sum_of(radius_a, radius_b), gap = sum_of(l.high, -sum.high);
     r->value = (gap.high + (gap.low + (l.low - sum.low))) * q->d.unscale;
     r->lower = rescaled(lower, q->d.unscale, -1);
     r->upper = rescaled(upper, q->d.unscale, 1);
     EACH(q->normal.c[i] = 0 - e.way.high.c[i] / l.high);
-    place_points(r, q, e.x, e.y, e.way.high, a, b, 0);
+    place_points(r, q, e.x, e.y, e.way.high, a, b, deep ? 2 : 0);
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;

@@ -226,12 +226,10 @@ static inline twin length_to_twice(vec w, vec low)
 }
 
 /* What the bounds and the pair tell; upper is of the cores. */
-static inline void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, int deep,
-                         result *r)
+static inline void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, result *r)
 {
     bracket(r, &q->d, q->lower, upper, a, b);
-    if (deep) place_points(r, q, p->x, p->y, p->w, a, b, 2);
-    else place_pair(r, q, p->x, p->y, p->w, a, b);
+    place_pair(r, q, p->x, p->y, p->w, a, b);
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;
@@ -241,10 +239,9 @@ static inline void spell(const search *q, const shape *a, const shape *b, real u
 /* The walk came so far with a gap that rounding does not blur, and this is a pair as near as v. */
 static inline int is_evident(const search *q, const goal *g, enum end end, const closest *p, real upper)
 {
-    real doubt = q->d.doubt, width = upper - q->lower, blur = 32 * doubt + 16 * UNIT * g->radius;
-    int deep = g->deep && q->lower > 32 * doubt && upper < g->radius - blur; /* but only the radii overlap */
+    real doubt = q->d.doubt, width = upper - q->lower;
     if (end == WITHIN) return upper < g->within;
-    if (!(q->lower > g->radius + blur) && !deep) return 0;
+    if (!(q->lower > g->radius + 32 * doubt + 16 * UNIT * g->radius)) return 0;
     if (end == CLOSE) return width <= asked_of(g, upper);
     return end == BEYOND || (end == STILL && peak(sub(p->w, q->v)) <= 8 * UNIT && width <= 4 * doubt);
 }
@@ -267,7 +264,7 @@ static void tell_overlap(search *q, const shape *a, const shape *b, enum end end
 {
     closest p = pair_of(q);
     real upper = end == INSIDE ? q->d.doubt - q->inside : length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
-    spell(q, a, b, upper, &p, 0, r);
+    spell(q, a, b, upper, &p, r);
     if (end == INSIDE && !(peak(p.w) <= 8 * UNIT)) r->upper = 0; /* the pair is none */
 }
 
@@ -291,7 +288,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
     if (end == STILL && g->deep) point_along(q, add(p.w, low));
     twin l = length_to_twice(p.w, low), value = sum_of(l.high, -g->radius);
     r->value = (value.high + (value.low + l.low)) * q->d.unscale;
-    spell(q, a, b, upper, &p, g->deep && upper < g->radius, r);
+    spell(q, a, b, upper, &p, r);
     return 1;
 }
 
@@ -299,7 +296,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
 static void tell_apart(search *q, const shape *a, const shape *b, result *r)
 {
     closest p = last_of(q);
-    spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, 0, r);
+    spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, r);
     if (!(r->lower > 0) && q->s.n == 0) step_plainly(q);
     q->pending = q->s.n == 0;
 }
