@@ -359,7 +359,8 @@ static real fall_of(const sight *e, const body *k, const simplex *s, size_t memb
 {
     vec first = member_of(corner(s, 0), member);
     vec rough = mul(k->posed ? pull(k->m, e->way.high) : e->way.high, sign);
-    real clear = 64 * UNIT * (k->norm * (k->reach * k->grain)) * spread(e->way.high), least = 0, sum = 0;
+    real far = k->size == 0 ? 0 : k->reach * k->grain, least = 0, sum = 0;
+    real clear = 64 * UNIT * (k->norm * far) * spread(e->way.high);
     for (int i = 0; i < DIM && k->asked == AS_BOX; i++) {
         vec x = first;
         x.c[i] = -x.c[i];

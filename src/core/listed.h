@@ -121,6 +121,10 @@ HOT int farthest_plain(const body *k, vec dir, int trusted, vec *x)
         return 1;
     }
     const list *l = &k->list;
+    if (l->count == 1) {
+        *x = load(l->v);
+        return fits(k, *x);
+    }
     size_t best = farthest_among(l->v, l->count, l->step, l->reach, dir, trusted);
     if (best == l->count) return 0;
     *x = load(l->v + best * l->step);

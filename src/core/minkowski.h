@@ -74,7 +74,7 @@ static inline int fits(const body *k, vec x)
 static inline void know_reach(body *k, real reach)
 {
     k->reach = reach;
-    k->limit = smaller(reach * (1 + 16 * UNIT), REAL_MAX);
+    k->limit = reach > TINY ? smaller(reach * (1 + 16 * UNIT), REAL_MAX) : reach; /* subnormal numbers are slow */
 }
 
 static APART vec wild_direction(const body *k, vec dir)

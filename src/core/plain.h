@@ -151,7 +151,7 @@ static inline void place_in_parts(const body *k, vec x, vec low, vec *upper, vec
 {
     *upper = x;
     *rest = low;
-    if (!k->posed) return;
+    if (!k->posed || k->size == 0) return; /* then all is 0 */
     real of_map = above(k->norm), of_point = above(k->reach * k->grain);
     vec x_up;
     EACH(x_up.c[i] = upper_digits(x.c[i], of_point));
