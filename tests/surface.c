@@ -539,11 +539,11 @@ static void clear_ones_are_measured(void **state)
     draw_from(0);
     begin(MOST, 1);
     put_ball(axis(0, 0), 1, 30);
-    assert_true(goes_around(&d));
+    assert_true(goes_around(&d, 0));
     d.dropped.doubtful = (real)0.01;
-    assert_true(goes_around(&d));
+    assert_true(goes_around(&d, 0));
     d.dropped.doubtful = 100;
-    assert_false(goes_around(&d));
+    assert_false(goes_around(&d, 0));
 }
 
 /* Needles and specks beside the origin have no facet that is lower than they are far: that does not make them go

@@ -578,8 +578,9 @@ static void count_angle(depth *d, facet *f, tally *t)
         return;
     }
     int side = d->g->exact ? inner_side(d, f) : -1;
+    real floor = larger(f->height, t->least); /* its own normal may lead away from the origin */
     t->proven += side > 0;
-    if (side < 0) t->doubtful += (spread(n) + slop) / f->height / (DIM == 2 ? 1 : f->height);
+    if (side < 0) t->doubtful += floor > 0 ? (spread(n) + slop) / floor / (DIM == 2 ? 1 : floor) : REAL_MAX;
 }
 
 /* Whether the surface goes around the origin, if all facets are off it, on their outer side: then how often it does is
@@ -588,10 +589,11 @@ static int surrounds(const tally *t) { return t->certain > 2 * t->doubtful || (t
 
 /* The same of the polytope and what was dropped. At first the angles of facets that are clear to see count as no more
  * than above 0, which is all that is needed if none is in doubt. */
-static int goes_around(depth *d)
+static int goes_around(depth *d, real least)
 {
     for (int measured = 0; measured < 2; measured++) {
         tally all = d->dropped;
+        all.least = least;
         for (int k = 0; k < d->p.facets; k++) {
             facet *f = &d->p.facet[k];
             if (!measured && f->form == WIDE && f->height > CLEAR) all.proven++;
@@ -610,7 +612,7 @@ static int bound(depth *d, real *upper)
     if (d->floor) count_height(d, d->floor, &all);
     for (int k = 0; k < d->p.facets; k++)
         if (&d->p.facet[k] != d->floor) count_height(d, &d->p.facet[k], &all);
-    int proven = all.facets > 0 && (d->settled || all.least > 0) && goes_around(d);
+    int proven = all.facets > 0 && (d->settled || all.least > 0) && goes_around(d, all.least);
     if (proven && all.least > 0) *upper = smaller(*upper, -all.least);
     if (d->g->exact) bound_along(d, d->floor ? d->floor->n : d->q->normal);
     return proven;
