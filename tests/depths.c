@@ -1422,25 +1422,82 @@ static void read_arguments(int argc, char **argv)
     pairs_per_family = pairs ? strtol(pairs, NULL, 10) : pairs_per_family;
 }
 
+#if VARIANT_DIM == 3
+/* What lies on the stack where a query is about to put its own. */
+static void soil_the_stack(void)
+{
+    volatile real dirt[8192];
+    for (size_t i = 0; i < sizeof dirt / sizeof *dirt; i++) {
+        dirt[i] = REAL_MAX / 4;
+    }
+}
+
+/* A thin simplex holds the origin, with room, and steps run out before there is a polytope: the points are those of
+ * that simplex. */
+static void points_without_a_polytope(void **state)
+{
+    static const double corners[2][4][3] = {{{-1.6644830112642703, 0, 5.9090028674338102},
+                                             {-1.6165293338885627, 0, -4.0152051643841231},
+                                             {3.513719305856724, 0, -3.4477116715936402},
+                                             {-0.20857338692282568, 0, -6.5864840099445887}},
+                                            {{0.91817272025863783, 0.12280956118485348, -0.088558412387199428},
+                                             {-0.11990231488832342, 0.48322241745187816, 0.096916732397970273},
+                                             {-0.47326281980529727, -0.71797963579017265, -0.68756296786862336},
+                                             {0.92737213792565443, 0.36537620826731043, -0.58320523611138209}}};
+    const V(pose) poses[2] = {{{0, 0, 0, 3, -1, 0, -1, (real)0.25, -3}, {(real)-77.884131189887185, 0, 0}},
+                              {{1, 0, 0, 0, 1, 0, 0, 0, 1},
+                               {(real)-78.811503326268934, (real)-0.54064842478749686, (real)-1.7638087638388371}}};
+    real v[2][4][3];
+    V(points) cloud[2];
+    V(shape) shape[2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < 12; i++) {
+            v[k][i / 3][i % 3] = (real)corners[k][i / 3][i % 3];
+        }
+        cloud[k] = (V(points)){v[k][0], 4, 0, 0, 0};
+        cloud[k].reach = V(points_reach)(&cloud[k]);
+        shape[k] = (V(shape)){V(support_points), &cloud[k], &poses[k], 0};
+    }
+    for (uint32_t steps = 1; steps < 12; steps++) {
+        V(options) o = {0};
+        V(result) r;
+        o.size = sizeof o;
+        o.max_steps = steps;
+        o.abs_tol = (real)(steps % 2 ? 0.00790851 : 0);
+        soil_the_stack();
+        assert_true(V(penetration)(&shape[0], &shape[1], &o, &r) >= 0);
+        for (int i = 0; i < 3; i++) {
+            assert_true(fabs((double)r.point_a[i]) < 200 && fabs((double)r.point_b[i]) < 200);
+        }
+    }
+}
+#endif
+
 int main(int argc, char **argv)
 {
-    static const struct CMUnitTest others[] = {cmocka_unit_test(every_law_was_asked),
-                                               cmocka_unit_test(workspaces),
-                                               cmocka_unit_test(few_steps),
-                                               cmocka_unit_test(tolerances),
-                                               cmocka_unit_test(balls),
-                                               cmocka_unit_test(capsules),
-                                               cmocka_unit_test(boxes_along_axes),
-                                               cmocka_unit_test(concentric),
-                                               cmocka_unit_test(stacked),
-                                               cmocka_unit_test(round_shapes),
-                                               cmocka_unit_test(all_but_concentric),
-                                               cmocka_unit_test(small_cores),
-                                               cmocka_unit_test(last_places_of_depths),
-                                               cmocka_unit_test(flat_pairs),
-                                               cmocka_unit_test(uneven),
-                                               cmocka_unit_test(paths),
-                                               cmocka_unit_test(turned_boxes)};
+    static const struct CMUnitTest others[] = {
+        cmocka_unit_test(every_law_was_asked),
+        cmocka_unit_test(workspaces),
+        cmocka_unit_test(few_steps),
+#if VARIANT_DIM == 3
+        cmocka_unit_test(points_without_a_polytope),
+#endif
+        cmocka_unit_test(tolerances),
+        cmocka_unit_test(balls),
+        cmocka_unit_test(capsules),
+        cmocka_unit_test(boxes_along_axes),
+        cmocka_unit_test(concentric),
+        cmocka_unit_test(stacked),
+        cmocka_unit_test(round_shapes),
+        cmocka_unit_test(all_but_concentric),
+        cmocka_unit_test(small_cores),
+        cmocka_unit_test(last_places_of_depths),
+        cmocka_unit_test(flat_pairs),
+        cmocka_unit_test(uneven),
+        cmocka_unit_test(paths),
+        cmocka_unit_test(turned_boxes)
+    };
     struct CMUnitTest tests[FAMILIES + sizeof others / sizeof *others];
     read_arguments(argc, argv);
     memset(tests, 0, sizeof tests);

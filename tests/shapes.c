@@ -371,6 +371,24 @@ static void nested_couples(void **state)
     }
 }
 
+/* Heights whose sum overflows: a long cloud is no other than a short one. */
+static void far_clouds(void **state)
+{
+    static real v[40][DIM];
+    (void)state;
+    for (int n = 28; n <= 40; n++) {
+        V(points) p = {v[0], (size_t)n, 0, 0, 0};
+        real dir[DIM] = {2}, out[DIM] = {0};
+        for (int i = 0; i < n; i++) {
+            v[i][0] = REAL_MAX / 4;
+            v[i][1] = REAL_MAX / 320 * (real)i;
+        }
+        p.reach = V(points_reach)(&p);
+        assert_true(V(support_points)(&p, dir, out) == p.reach);
+        assert_true(out[0] == REAL_MAX / 4);
+    }
+}
+
 /* The reach found once, rounded up but little. */
 static void cloud_reaches(void **state)
 {
@@ -418,6 +436,7 @@ int main(void)
 #endif
         cmocka_unit_test(couples),
         cmocka_unit_test(nested_couples),
+        cmocka_unit_test(far_clouds),
         cmocka_unit_test(cloud_reaches),
     };
     return cmocka_run_group_tests_name("shapes of " VARIANT, tests, NULL, NULL);

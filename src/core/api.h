@@ -100,6 +100,7 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         if (end == OPEN && q->steps < g->max_steps) end = descend(q, &here);
         if (walked == INSIDE && is_depth_alone(q, g)) {
             *upper = q->d.doubt - q->inside;
+            weigh_walked(q, weight);
             return end;
         }
         end = sharpen_on(q, &here, end, upper, weight);
@@ -290,7 +291,7 @@ static void point_out_apart(search *q, const shape *a, const shape *b, const goa
     }
     point_along_pair(q, a, b, g, weight);
     store(r->normal, q->normal);
-    if (g->radius > 0) witness(r, q, weight, a, b, 2);
+    if (g->radius > 0 && !(r->lower > 0)) witness(r, q, weight, a, b, 2);
 }
 
 /* Whether the cores are not proven to be apart, by rounded bounds or without rounding. */

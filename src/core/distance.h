@@ -68,6 +68,17 @@ typedef struct search {
 /* |v| is below half a rounding of the frame, which is of size 1 to 2: it has no direction. */
 static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
 
+/* The nearest point's weights, from the walk if it has left them. */
+static inline void weigh_walked(const search *q, real weight[DIM + 1])
+{
+    if (!q->weighed) {
+        weigh(&q->s, weight);
+        return;
+    }
+    memcpy(weight, q->weight, sizeof q->weight);
+    normalize(weight, q->s.n);
+}
+
 /* In a narrow simplex the weights are coarse, and their corner x off v by a slip across it; what the slip says of them
  * is taken back, as long as that brings the corner nearer. */
 static vec take_back(const search *q, vec x, real weight[DIM + 1])

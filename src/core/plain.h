@@ -175,12 +175,7 @@ static inline closest pair_of(const search *q)
     const difference *d = &q->d;
     closest p;
     real weight[DIM + 1];
-    if (q->weighed) {
-        memcpy(weight, q->weight, sizeof weight);
-        normalize(weight, q->s.n);
-    } else {
-        weigh(&q->s, weight);
-    }
+    weigh_walked(q, weight);
     p.x = fine_blend(&q->s, weight, offsetof(vertex, x), d->a.grain, &p.x_low);
     p.y = fine_blend(&q->s, weight, offsetof(vertex, y), d->b.grain, &p.y_low);
     p.w = sub(d->a.posed ? map(d->a.m, p.x) : p.x, add(d->b.posed ? map(d->b.m, p.y) : p.y, d->c));

@@ -87,14 +87,14 @@ GJK_API real pub(points_reach)(const points *p)
     return padded(root(sum) / level);
 }
 
-/* Many points are looked at in runs: how high the highest of a run is; and the sum of these heights. */
+/* Many points are looked at in runs: how high the highest of a run is; and the sum of what the heights are times 0. */
 #define RUN 4
 #define MANY (8 * RUN)
 static inline real highest_in_run(const real *x, size_t step, vec d, real *sum)
 {
     real p = dot(load(x), d), q = dot(load(x + step), d);
     real r = dot(load(x + 2 * step), d), s = dot(load(x + 3 * step), d);
-    *sum = (p + q) + (r + s);
+    *sum = (p * 0 + q * 0) + (r * 0 + s * 0);
     return larger(larger(p, q), larger(r, s));
 }
 
@@ -148,12 +148,12 @@ static inline size_t farthest_in_runs(const real *v, size_t n, size_t step, real
     const real *x = v;
     for (; i + RUN <= n; i += RUN, x += RUN * step) {
         s = see(s, highest_in_run(x, step, d, &sum), i);
-        if (!trusted) none += sum * 0;
+        if (!trusted) none += sum;
     }
     for (; i < n; i++, x += step) {
-        sum = dot(load(x), d);
-        s = see(s, sum, i);
-        if (!trusted) none += sum * 0;
+        real height = dot(load(x), d);
+        s = see(s, height, i);
+        if (!trusted) none += height * 0;
     }
     if (!(none == 0)) return n;
     summit closer = {-REAL_MAX, -REAL_MAX, s.at};
