@@ -118,7 +118,8 @@ static size_t settle_tie(const real *v, size_t n, size_t step, real reach, vec d
     return best;
 }
 
-/* The highest of the points so far, the first among equals, and the height of the next one. */
+/* The highest of the points so far, the first among equals, and the height of the next one. Selected, not branched: in
+ * pairs never seen before each new summit would be a branch mispredicted. */
 typedef struct summit {
     real highest, second;
     size_t at;
@@ -126,8 +127,9 @@ typedef struct summit {
 
 static inline summit see(summit s, real height, size_t at)
 {
-    if (height > s.highest) return (summit){height, s.highest, at};
-    s.second = larger(height, s.second);
+    s.second = larger(smaller(height, s.highest), s.second);
+    s.at = height > s.highest ? at : s.at;
+    s.highest = larger(height, s.highest);
     return s;
 }
 
