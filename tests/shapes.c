@@ -371,6 +371,25 @@ static void nested_couples(void **state)
     }
 }
 
+/* A point that is no number is found out wherever it stands in a cloud of any length. */
+static void none_among_many(void **state)
+{
+    static real v[70][DIM];
+    const real nones[3] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
+    (void)state;
+    for (int n = 1; n <= 70; n++) {
+        for (int at = 0; at < n; at++) {
+            V(points) p = {v[0], (size_t)n, 0, 0, 2};
+            real dir[DIM] = {1}, out[DIM];
+            memset(v, 0, sizeof v);
+            dir[1] = (real)0.5;
+            assert_true(V(support_points)(&p, dir, out) == 2);
+            v[at][at % 2] = nones[(at + n) % 3];
+            assert_true(isnan(V(support_points)(&p, dir, out)));
+        }
+    }
+}
+
 /* Heights whose sum overflows: a long cloud is no other than a short one. */
 static void far_clouds(void **state)
 {
@@ -436,6 +455,7 @@ int main(void)
 #endif
         cmocka_unit_test(couples),
         cmocka_unit_test(nested_couples),
+        cmocka_unit_test(none_among_many),
         cmocka_unit_test(far_clouds),
         cmocka_unit_test(cloud_reaches),
     };
