@@ -413,7 +413,7 @@ def test_of_pairs_in_float_the_more_exact_of_ours_counts(few, tmp_path):
         measured = Measured([path])
         held = [p for p in measured.places if p.ask.question != "intersect" and p.ours() and p.theirs()]
         marks = [row[1] for row in tables.marks(measured).rows[-2:]]
-        cells = {tuple(row[:2]): row[2] for row in tables.by_error(measured).rows}
+        cells = {tuple(row[:2]): row[3] for row in tables.by_error(measured).rows}  # of penetration
         library = next(row[4] for row in tables.by_library(measured).rows if row[:2] == ["3-D, float", "libccd MPR"])
         exact = dict(tables.glance(measured))["Exact?"]
         assert "on these pairs double takes 0.80 of the time that float takes" in exact
