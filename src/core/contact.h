@@ -90,7 +90,7 @@ static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
         return box_corner(s, up);
     }
     real top = -REAL_MAX, most = -REAL_MAX;
-    const listing l = corners_of(s);
+    const list l = corners_of(s);
     for (size_t i = 0; i < l.count; i++) top = larger(dot(mul(nth_of(&l, i), k->grain), up), top);
     for (size_t i = 0; i < l.count; i++) {
         vec c = mul(nth_of(&l, i), k->grain);

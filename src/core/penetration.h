@@ -102,20 +102,15 @@ static inline twin height_along(const slope g[DIM], vec c)
 }
 
 /* A set's corners, but a box's, one after the other. */
-typedef struct listing {
-    const real *v;
-    size_t count, step;
-} listing;
-
-static listing corners_of(const shape *s)
+static list corners_of(const shape *s)
 {
     static const real none[DIM];
     const points *p = s->data;
-    if (s->support == pub(support_points)) return (listing){p->v, p->count, stride_of(p)};
-    return (listing){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM};
+    if (s->support == pub(support_points)) return list_of_cloud(p);
+    return (list){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM, 0};
 }
 
-static inline vec nth_of(const listing *l, size_t n) { return load(l->v + n * l->step); }
+static inline vec nth_of(const list *l, size_t n) { return load(l->v + n * l->step); }
 
 /* Corners that may be the highest. */
 #define HELD 8
@@ -157,7 +152,7 @@ static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], v
         *x = box_corner(s, rough);
         return height_along(g, mul(*x, grain));
     }
-    const listing l = corners_of(s);
+    const list l = corners_of(s);
     const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
     real least = -REAL_MAX;
     held some;
