@@ -1432,6 +1432,30 @@ static void soil_the_stack(void)
     }
 }
 
+/* Apart, with a radius, and ended by a cutoff: the pair realises upper. */
+static void pair_of_an_early_end(void **state)
+{
+    const V(box) box = {{(real)0.27124625997964441, (real)0.22332112312712865, (real)0.52028312279616118}};
+    const V(pose) far = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, (real)-13.721364605599394, (real)-0.17137578250078064}};
+    const V(shape) a = {V(support_box), &box, NULL, 0};
+    const real none[3] = {0, 0, 0};
+    V(points) cloud = {none, 1, 0, 0, 0};
+    const V(shape) b = {V(support_points), &cloud, &far, (real)0.32182223402293647};
+    double apart = 0;
+    V(options) o = {0};
+    V(result) r;
+    (void)state;
+    o.size = sizeof o;
+    o.cutoff = (real)7.99639;
+    cloud.reach = V(points_reach)(&cloud);
+    assert_true(V(penetration)(&a, &b, &o, &r) >= 0);
+    for (int i = 0; i < 3; i++) {
+        double d = (double)r.point_a[i] - (double)r.point_b[i];
+        apart += d * d;
+    }
+    assert_true(sqrt(apart) <= (double)r.upper * (1 + 16 * (double)REAL_EPSILON));
+}
+
 /* A thin simplex holds the origin, with room, and steps run out before there is a polytope: the points are those of
  * that simplex. */
 static void points_without_a_polytope(void **state)
@@ -1482,6 +1506,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(few_steps),
 #if VARIANT_DIM == 3
         cmocka_unit_test(points_without_a_polytope),
+        cmocka_unit_test(pair_of_an_early_end),
 #endif
         cmocka_unit_test(tolerances),
         cmocka_unit_test(balls),
