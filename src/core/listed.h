@@ -125,9 +125,9 @@ HOT int farthest_plain(const body *k, vec dir, int trusted, vec *x)
         *x = load(l->v);
         return fits(k, *x);
     }
-    size_t best = farthest_among(l->v, l->count, l->step, l->reach, dir, trusted);
+    size_t best = farthest_among(l, dir, trusted);
     if (best == l->count) return 0;
-    *x = load(l->v + best * l->step);
+    *x = nth_of(l, best);
     return fits(k, *x);
 }
 

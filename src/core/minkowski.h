@@ -110,7 +110,7 @@ static inline int farthest(difference *d, body *k, vec v, vec *x)
     real reach;
     if (k->asked == BY_CALL) return call(d, k, dir, x, &reach);
     d->calls++;
-    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : farthest_listed(&k->list, dir);
+    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : nth_of(&k->list, farthest_among(&k->list, dir, 1));
     return fits(k, *x);
 }
 

@@ -110,8 +110,6 @@ static list corners_of(const shape *s)
     return (list){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM, 0};
 }
 
-static inline vec nth_of(const list *l, size_t n) { return load(l->v + n * l->step); }
-
 /* Corners that may be the highest. */
 #define HELD 8
 typedef struct held {

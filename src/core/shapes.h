@@ -5,6 +5,7 @@
 #define GJK_CORE_SHAPES_H
 
 #include "reach.h"
+#include "scan.h"
 
 typedef pub(points) points;
 typedef pub(box) box;
@@ -87,132 +88,17 @@ GJK_API real pub(points_reach)(const points *p)
     return padded(root(sum) / level);
 }
 
-/* Many points are looked at in runs: how high the highest of a run is; and the sum of what the heights are times 0. */
-#define RUN 4
-#define MANY (8 * RUN)
-static inline real highest_in_run(const real *x, size_t step, vec d, real *sum)
-{
-    real p = dot(load(x), d), q = dot(load(x + step), d);
-    real r = dot(load(x + 2 * step), d), s = dot(load(x + 3 * step), d);
-    *sum = (p * 0 + q * 0) + (r * 0 + s * 0);
-    return larger(larger(p, q), larger(r, s));
-}
-
-/* A point that is higher than the best one, if there is any among those of almost its height: of points that lie close
- * together far from their origin, their differences tell. A rise of which rounding leaves even the sign open counts
- * where it can't be wrong by more than 2 units of the reach, which heights leave of the licence. */
-static size_t settle_tie(const real *v, size_t n, size_t step, real reach, vec d, size_t best, real almost)
-{
-    vec top = load(v + best * step);
-    real highest = 0, leave = 2 * UNIT * reach * peak(d), sum;
-    for (size_t i = 0; i < n; i++) {
-        while (n >= MANY && i + RUN < n && highest_in_run(v + i * step, step, d, &sum) < almost) i += RUN;
-        vec x = load(v + i * step);
-        if (!(dot(x, d) >= almost)) continue;
-        vec e = sub(x, top);
-        real rise = dot(e, d), doubt = 4 * UNIT * dot_size(e, d);
-        if (!(rise > highest) || !(rise > doubt || doubt <= leave)) continue;
-        highest = rise;
-        best = i;
-    }
-    return best;
-}
-
-/* The highest of the points so far, the first among equals, and the height of the next one. Selected, not branched: in
- * pairs never seen before each new summit would be a branch mispredicted. */
-typedef struct summit {
-    real highest, second;
-    size_t at;
-} summit;
-
-static inline summit see(summit s, real height, size_t at)
-{
-    s.second = larger(smaller(height, s.highest), s.second);
-    s.at = height > s.highest ? at : s.at;
-    s.highest = larger(height, s.highest);
-    return s;
-}
-
-/* Of almost equals the others are asked, too. */
-static inline size_t settle_summit(const real *v, size_t n, size_t step, real reach, vec d, summit s)
-{
-    real almost = s.highest - 8 * UNIT * reach * spread(d);
-    return s.second >= almost ? settle_tie(v, n, step, reach, d, s.at, almost) : s.at;
-}
-
-/* With one choice for all of a run; then the highest run is looked at closer. The sum of heights * 0 is 0 only if every
- * height, and with it every point, is finite. */
-static inline size_t farthest_in_runs(const real *v, size_t n, size_t step, real reach, vec d, int trusted)
-{
-    summit s = {-REAL_MAX, -REAL_MAX, 0};
-    real none = 0, sum;
-    size_t i = 0;
-    const real *x = v;
-    for (; i + RUN <= n; i += RUN, x += RUN * step) {
-        s = see(s, highest_in_run(x, step, d, &sum), i);
-        if (!trusted) none += sum;
-    }
-    for (; i < n; i++, x += step) {
-        real height = dot(load(x), d);
-        s = see(s, height, i);
-        if (!trusted) none += height * 0;
-    }
-    if (!(none == 0)) return n;
-    summit closer = {-REAL_MAX, -REAL_MAX, s.at};
-    for (i = s.at; i < n && i < s.at + RUN; i++) closer = see(closer, dot(load(v + i * step), d), i);
-    closer.second = larger(closer.second, s.second);
-    return settle_summit(v, n, step, reach, d, closer);
-}
-
-static APART size_t farthest_of_many(const real *v, size_t n, size_t step, real reach, vec d)
-{
-    return farthest_in_runs(v, n, step, reach, d, 0);
-}
-
-static APART size_t farthest_of_many_trusted(const real *v, size_t n, size_t step, real reach, vec d)
-{
-    return farthest_in_runs(v, n, step, reach, d, 1);
-}
-
-/* Farthest of n points, the first among equals; unless they are trusted, n if one is not finite. The rounding of two
- * heights, 3 each, is within the licence of 8. */
-static inline size_t farthest_among(const real *v, size_t n, size_t step, real reach, vec d, int trusted)
-{
-    if (n >= MANY)
-        return trusted ? farthest_of_many_trusted(v, n, step, reach, d) : farthest_of_many(v, n, step, reach, d);
-    summit s = {dot(load(v), d), -REAL_MAX, 0};
-    real sum = trusted ? 0 : s.highest * 0;
-    for (size_t i = 1; i < n; i++) {
-        real height = dot(load(v + i * step), d);
-        if (!trusted) sum += height * 0;
-        s = see(s, height, i);
-    }
-    return sum == 0 ? settle_summit(v, n, step, reach, d, s) : n;
-}
+static inline list list_of_cloud(const points *p) { return (list){p->v, p->count, stride_of(p), p->reach}; }
 
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
 {
     const points *p = data;
     if (!p || !cloud(p)) return refuse(out);
-    size_t step = stride_of(p), best = farthest_among(p->v, p->count, step, p->reach, load(dir), 0);
+    const list l = list_of_cloud(p);
+    size_t best = farthest_among(&l, load(dir), 0);
     if (best == p->count) return refuse(out);
-    store(out, load(p->v + best * step));
+    store(out, nth_of(&l, best));
     return p->reach;
-}
-
-/* Corners, one after another, and a bound on how far out they lie. */
-typedef struct list {
-    const real *v;
-    size_t count, step;
-    real reach;
-} list;
-
-static inline list list_of_cloud(const points *p) { return (list){p->v, p->count, stride_of(p), p->reach}; }
-
-/* The same of corners that have answered once. */
-static inline vec farthest_listed(const list *l, vec dir)
-{
-    return load(l->v + l->step * farthest_among(l->v, l->count, l->step, l->reach, dir, 1));
 }
 
 static inline vec corner_of_box(const box *b, vec dir)
@@ -242,8 +128,8 @@ static inline list list_of(const real (*v)[DIM], size_t n)
 static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])
 {
     list l = list_of(v, n);
-    size_t best = farthest_among(l.v, n, DIM, smaller(l.reach, REAL_MAX), load(dir), 0);
-    if (best == n || !(l.reach <= REAL_MAX)) return refuse(out);
+    size_t best = l.reach <= REAL_MAX ? farthest_of_few(&l, load(dir), 0) : n;
+    if (best == n) return refuse(out);
     store(out, load(v[best]));
     return l.reach;
 }

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+/* Numbers side by side, where the machine reckons several at once. Each is rounded as it is alone, so that the bits are
+ * those of one after another; how many there are, LANES, is known to nobody but who counts them. */
+#ifndef GJK_CORE_LANES_H
+#define GJK_CORE_LANES_H
+
+#include "linear.h"
+
+#if (defined(__SSE2__) || defined(_M_X64)) && !defined(GJK_NO_LANES)
+#include <emmintrin.h>
+#if REAL_IS_DOUBLE
+#define LANES 2
+typedef __m128d lanes;
+
+static inline lanes in_all(real x) { return _mm_set1_pd(x); }
+static inline lanes sums(lanes x, lanes y) { return _mm_add_pd(x, y); }
+static inline lanes products(lanes x, lanes y) { return _mm_mul_pd(x, y); }
+static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_pd(x, y); }
+static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_pd(x, y); }
+static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cmpge_pd(x, y)); }
+static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
+
+/* A number of each point, step by step. */
+static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
+{
+    EACH(c[i] = _mm_loadh_pd(_mm_load_sd(x + i), x + step + i));
+}
+
+/* Whole numbers below 2^32. */
+typedef __m128d indices;
+
+static inline indices index_in_all(uint32_t n) { return _mm_castsi128_pd(_mm_set1_epi32((int)n)); }
+static inline indices next_indices(indices n)
+{
+    return _mm_castsi128_pd(_mm_add_epi32(_mm_castpd_si128(n), _mm_set1_epi32(1)));
+}
+static inline void part_indices(indices n, uint32_t r[LANES])
+{
+    uint32_t twice[4];
+    _mm_storeu_si128((__m128i *)(void *)twice, _mm_castpd_si128(n));
+    r[0] = twice[0];
+    r[1] = twice[2];
+}
+
+/* n where x > y, else m. */
+static inline indices where_larger(lanes x, lanes y, indices n, indices m)
+{
+    lanes mask = _mm_cmpgt_pd(x, y);
+    return _mm_or_pd(_mm_and_pd(mask, n), _mm_andnot_pd(mask, m));
+}
+#else
+#define LANES 4
+typedef __m128 lanes;
+
+static inline lanes in_all(real x) { return _mm_set1_ps(x); }
+static inline lanes sums(lanes x, lanes y) { return _mm_add_ps(x, y); }
+static inline lanes products(lanes x, lanes y) { return _mm_mul_ps(x, y); }
+static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_ps(x, y); }
+static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_ps(x, y); }
+static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_ps(_mm_cmpge_ps(x, y)); }
+static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_ps(r, x); }
+
+/* x and y of two points, step apart. */
+static inline lanes load_two(const real *x, size_t step)
+{
+    lanes r = _mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)(const void *)x);
+    return _mm_loadh_pi(r, (const __m64 *)(const void *)(x + step));
+}
+
+/* A number of each point, step by step. */
+static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
+{
+    lanes low = load_two(x, step), high = load_two(x + 2 * step, step);
+    c[0] = _mm_shuffle_ps(low, high, 0x88);
+    c[1] = _mm_shuffle_ps(low, high, 0xdd);
+#if DIM == 3
+    const real *z = x + 2;
+    lanes a = _mm_unpacklo_ps(_mm_load_ss(z), _mm_load_ss(z + step));
+    lanes b = _mm_unpacklo_ps(_mm_load_ss(z + 2 * step), _mm_load_ss(z + 3 * step));
+    c[2] = _mm_movelh_ps(a, b);
+#endif
+}
+
+/* Whole numbers below 2^32. */
+typedef __m128 indices;
+
+static inline indices index_in_all(uint32_t n) { return _mm_castsi128_ps(_mm_set1_epi32((int)n)); }
+static inline indices next_indices(indices n)
+{
+    return _mm_castsi128_ps(_mm_add_epi32(_mm_castps_si128(n), _mm_set1_epi32(1)));
+}
+static inline void part_indices(indices n, uint32_t r[LANES])
+{
+    _mm_storeu_si128((__m128i *)(void *)r, _mm_castps_si128(n));
+}
+
+/* n where x > y, else m. */
+static inline indices where_larger(lanes x, lanes y, indices n, indices m)
+{
+    lanes mask = _mm_cmpgt_ps(x, y);
+    return _mm_or_ps(_mm_and_ps(mask, n), _mm_andnot_ps(mask, m));
+}
+#endif
+#else
+#define LANES 1
+typedef real lanes;
+typedef uint32_t indices;
+
+static inline lanes in_all(real x) { return x; }
+static inline lanes sums(lanes x, lanes y) { return x + y; }
+static inline lanes products(lanes x, lanes y) { return x * y; }
+static inline lanes larger_ones(lanes x, lanes y) { return larger(x, y); }
+static inline lanes smaller_ones(lanes x, lanes y) { return smaller(x, y); }
+static inline int any_as_large(lanes x, lanes y) { return x >= y; }
+static inline void part_lanes(lanes x, real r[LANES]) { r[0] = x; }
+static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
+{
+    (void)step;
+    EACH(c[i] = x[i]);
+}
+static inline indices index_in_all(uint32_t n) { return n; }
+static inline indices next_indices(indices n) { return n + 1; }
+static inline void part_indices(indices n, uint32_t r[LANES]) { r[0] = n; }
+static inline indices where_larger(lanes x, lanes y, indices n, indices m) { return x > y ? n : m; }
+#endif
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT */
+/* The farthest of many points along a direction. Nothing is branched on but what is rare: in pairs never seen before
+ * each new summit would be a branch mispredicted. */
+#ifndef GJK_CORE_SCAN_H
+#define GJK_CORE_SCAN_H
+
+#include "lanes.h"
+
+/* Points, one after another, and a bound on how far out they lie. */
+typedef struct list {
+    const real *v;
+    size_t count, step;
+    real reach;
+} list;
+
+static inline vec nth_of(const list *l, size_t n) { return load(l->v + n * l->step); }
+
+/* ---- runs ---- */
+
+/* Many points are looked at in runs. */
+#define RUN 4
+#define MANY (8 * RUN)
+
+/* A direction in every lane. */
+typedef struct ways {
+    lanes c[DIM];
+} ways;
+
+static inline ways ways_of(vec d)
+{
+    ways r;
+    EACH(r.c[i] = in_all(d.c[i]));
+    return r;
+}
+
+/* How high LANES points are: what dot says of each. */
+static inline lanes heights(const real *x, size_t step, const ways *d)
+{
+    lanes c[DIM], r;
+    load_lanes(x, step, c);
+    r = products(c[0], d->c[0]);
+    REST(r = sums(r, products(c[i], d->c[i])));
+    return r;
+}
+
+/* Of a run, in each lane the highest; to none are added the heights times 0. */
+static inline lanes highest_in_run(const real *x, size_t step, const ways *d, lanes *none)
+{
+    lanes most = heights(x, step, d), zero = in_all(0);
+    *none = sums(*none, products(most, zero));
+    for (int k = LANES; k < RUN; k += LANES) {
+        lanes next = heights(x + (size_t)k * step, step, d);
+        *none = sums(*none, products(next, zero));
+        most = larger_ones(most, next);
+    }
+    return most;
+}
+
+/* ---- ties ---- */
+
+/* How far the computed heights of equals may lie apart: the rounding of two, 3 each, is within the licence of 8. */
+static inline real margin_of(const list *l, vec d) { return 8 * UNIT * l->reach * spread(d); }
+
+/* A point that is higher than the best one, if there is any among those of almost its height: of points that lie close
+ * together far from their origin, their differences tell. A rise of which rounding leaves even the sign open counts
+ * where it can't be wrong by more than 2 units of the reach, which heights leave of the licence. The best is the first
+ * of that height. */
+static APART size_t settle_tie(const list *l, vec d, real height, real almost)
+{
+    const size_t n = l->count, step = l->step;
+    size_t best = 0;
+    while (best + 1 < n && dot(nth_of(l, best), d) != height) best++;
+    const vec top = nth_of(l, best);
+    real highest = 0, leave = 2 * UNIT * l->reach * peak(d);
+    lanes none = in_all(0), least = in_all(almost);
+    ways way = ways_of(d);
+    for (size_t i = 0; i < n; i++) {
+        while (i + RUN < n && !any_as_large(highest_in_run(l->v + i * step, step, &way, &none), least)) i += RUN;
+        vec x = nth_of(l, i);
+        if (!(dot(x, d) >= almost)) continue;
+        vec e = sub(x, top);
+        real rise = dot(e, d), doubt = 4 * UNIT * dot_size(e, d);
+        if (!(rise > highest) || !(rise > doubt || doubt <= leave)) continue;
+        highest = rise;
+        best = i;
+    }
+    return best;
+}
+
+/* The highest of the points so far, the first among equals, and the height of the next one. */
+typedef struct summit {
+    real highest, second;
+    size_t at;
+} summit;
+
+static inline summit see(summit s, real height, size_t at)
+{
+    s.second = larger(smaller(height, s.highest), s.second);
+    s.at = height > s.highest ? at : s.at;
+    s.highest = larger(height, s.highest);
+    return s;
+}
+
+/* Of almost equals the others are asked, too. */
+static inline size_t settle_summit(const list *l, vec d, summit s)
+{
+    real almost = s.highest - margin_of(l, d);
+    return s.second >= almost ? settle_tie(l, d, s.highest, almost) : s.at;
+}
+
+/* ---- few points, and many ---- */
+
+HOT size_t farthest_of_few(const list *l, vec d, int trusted)
+{
+    const real *x = l->v;
+    summit s = {dot(load(x), d), -REAL_MAX, 0};
+    real none = s.highest * 0;
+    for (size_t i = 1; i < l->count; i++) {
+        real height = dot(load(x += l->step), d);
+        none += height * 0;
+        s = see(s, height, i);
+    }
+    return trusted || none == 0 ? settle_summit(l, d, s) : l->count;
+}
+
+/* A summit in each lane, of runs. */
+typedef struct summits {
+    lanes highest, second;
+    indices at;
+} summits;
+
+static inline summits see_run(summits s, lanes height, indices at)
+{
+    s.second = larger_ones(smaller_ones(height, s.highest), s.second);
+    s.at = where_larger(height, s.highest, at, s.at);
+    s.highest = larger_ones(height, s.highest);
+    return s;
+}
+
+/* The point that is the highest of all lanes. */
+static inline summit summit_of(const summits *all, const list *l, vec d)
+{
+    real highest[LANES], second[LANES];
+    uint32_t at[LANES];
+    part_lanes(all->highest, highest);
+    part_lanes(all->second, second);
+    part_indices(all->at, at);
+    summit lane = {highest[0], second[0], 0};
+    for (size_t k = 1; k < LANES; k++) {
+        lane = see(lane, highest[k], k);
+        lane.second = larger(second[k], lane.second);
+    }
+    size_t i = (size_t)at[lane.at] * RUN + lane.at;
+    summit s = {dot(nth_of(l, i), d), lane.second, i};
+    for (size_t k = LANES; k < RUN; k += LANES) s = see(s, dot(nth_of(l, i + k), d), i + k);
+    return s;
+}
+
+/* As many runs as indices count; points beyond these are looked at one by one. */
+#define MOST_RUNS 0x7fffffffu
+
+HOT size_t farthest_in_runs(const list *l, vec d, int trusted)
+{
+    const size_t step = l->step, runs = l->count / RUN < MOST_RUNS ? l->count / RUN : MOST_RUNS;
+    const real *x = l->v;
+    const ways way = ways_of(d);
+    summits all = {in_all(-REAL_MAX), in_all(-REAL_MAX), index_in_all(0)};
+    lanes lost = in_all(0);
+    indices at = index_in_all(0);
+    real none = 0, parts[LANES];
+    for (size_t k = 0; k < runs; k++, x += RUN * step, at = next_indices(at))
+        all = see_run(all, highest_in_run(x, step, &way, &lost), at);
+    summit s = summit_of(&all, l, d);
+    part_lanes(lost, parts);
+    for (int k = 0; k < LANES; k++) none += parts[k];
+    for (size_t i = runs * RUN; i < l->count; i++, x += step) {
+        real height = dot(load(x), d);
+        none += height * 0;
+        s = see(s, height, i);
+    }
+    return trusted || none == 0 ? settle_summit(l, d, s) : l->count;
+}
+
+static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, 0); }
+static APART size_t farthest_of_many_trusted(const list *l, vec d) { return farthest_in_runs(l, d, 1); }
+
+/* Farthest of the points, the first among equals; unless they are trusted, their count if one is not finite. The sum of
+ * heights times 0 is 0 only if every height, and with it every point, is finite. */
+static inline size_t farthest_among(const list *l, vec d, int trusted)
+{
+    if (l->count < MANY) return farthest_of_few(l, d, trusted);
+    return trusted ? farthest_of_many_trusted(l, d) : farthest_of_many(l, d);
+}
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* The farthest of many points, from inside: a variant is compiled in. Points side by side, in runs, give the very point
+ * that they give one after another, whichever way the machine takes: among equals, among almost equals that only their
+ * differences tell apart, and where one is no number. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#define GJK_ALONE
+#if VARIANT_DIM == 2 && VARIANT_FLOAT
+#include "../src/gjk2f.c"
+#elif VARIANT_DIM == 2
+#include "../src/gjk2.c"
+#elif VARIANT_FLOAT
+#include "../src/gjk3f.c"
+#else
+#include "../src/gjk3.c"
+#endif
+
+#define MOST 150
+#define WIDEST 7 /* numbers from point to point */
+
+static real v[MOST * WIDEST];
+static uint64_t state_of_draws;
+
+/* splitmix64 */
+static int below_any(int n)
+{
+    uint64_t z = state_of_draws += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (int)((z ^ (z >> 31)) % (uint64_t)n);
+}
+
+static real any_real(void) { return (real)(below_any(1 << 24) - (1 << 23)) / (real)(1 << 23); }
+
+/* Of kind 0 and 3: anywhere; 1: on a coarse grid, where many are equal; 2: close together far out, where rounding makes
+ * equals. */
+static void draw_points(int kind, int count, int step)
+{
+    for (int i = 0; i < count * step; i++) {
+        real x = kind == 1 ? (real)(below_any(5) - 2) : any_real();
+        v[i] = kind == 2 ? 1000 + x * 4096 * UNIT : x;
+    }
+}
+
+static list any_list(int kind)
+{
+    int count = RUN + below_any(MOST - RUN), step = DIM + below_any(WIDEST - DIM + 1);
+    draw_points(kind, count, step);
+    real reach = kind == 1 ? 4 : kind == 2 ? 2000 : 2;
+    return (list){v, (size_t)count, (size_t)step, reach};
+}
+
+static vec any_direction(int kind)
+{
+    vec d;
+    for (int i = 0; i < DIM; i++) d.c[i] = kind == 1 ? (real)(below_any(3) - 1) : any_real();
+    if (below_any(4) == 0) d.c[below_any(DIM)] = 0;
+    return d;
+}
+
+/* Two of the list far above the others, equal but for a rounding or two. */
+static void raise_two(const list *l, vec d)
+{
+    for (int k = 0; k < 2; k++) {
+        real *x = v + (size_t)below_any((int)l->count) * l->step;
+        for (int i = 0; i < DIM; i++) x[i] = 64 * d.c[i] * (1 + (real)below_any(3) * 2 * UNIT);
+    }
+}
+
+/* Lists of any length from a run on. */
+static void one_by_one_or_in_runs(void **state)
+{
+    int ties = 0;
+    (void)state;
+    for (int i = 0; i < 60000; i++) {
+        int kind = i % 4;
+        list l = any_list(kind);
+        vec d = any_direction(kind);
+        if (kind == 3) {
+            raise_two(&l, d);
+            l.reach = 128;
+        }
+        size_t best = farthest_of_few(&l, d, 0);
+        assert_true(best < l.count);
+        assert_true(farthest_in_runs(&l, d, 0) == best);
+        assert_true(farthest_in_runs(&l, d, 1) == best);
+        assert_true(farthest_of_few(&l, d, 1) == best);
+        for (size_t k = 0; k < l.count; k++) {
+            assert_true(dot(nth_of(&l, k), d) <= dot(nth_of(&l, best), d) + margin_of(&l, d));
+            if (kind == 1 && k != best && dot(nth_of(&l, k), d) == dot(nth_of(&l, best), d)) {
+                assert_true(k > best); /* nothing rounds there */
+                ties++;
+            }
+        }
+    }
+    assert_true(ties > 20000);
+}
+
+static void no_numbers(void **state)
+{
+    const real nones[3] = {(real)NAN, (real)INFINITY, -(real)INFINITY};
+    (void)state;
+    for (int i = 0; i < 60000; i++) {
+        list l = any_list(0);
+        vec d = any_direction(0);
+        int at = below_any((int)l.count), axis_of = below_any(DIM);
+        if (d.c[axis_of] == 0) d.c[axis_of] = 1;
+        v[(size_t)at * l.step + (size_t)axis_of] = nones[i % 3];
+        assert_true(farthest_of_few(&l, d, 0) == l.count);
+        assert_true(farthest_in_runs(&l, d, 0) == l.count);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_by_one_or_in_runs),
+        cmocka_unit_test(no_numbers),
+    };
+    return cmocka_run_group_tests_name("scans", tests, NULL, NULL);
+}
