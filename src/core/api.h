@@ -104,7 +104,6 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
             return end;
         }
         end = sharpen_on(q, &here, end, upper, weight);
-        if (walked != INSIDE && end == INSIDE) q->inside = room(&q->s);
         if (end == INSIDE && q->inside > q->d.doubt) *upper = q->d.doubt - q->inside;
         if (end != FAULT && q->lower <= *upper) return end;
     }
@@ -120,7 +119,6 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
             }
         }
         if (end != FAULT) {
-            if (end == INSIDE) q->inside = room(&q->s);
             if (end == INSIDE && q->inside > q->d.doubt) *upper = q->d.doubt - q->inside;
             if (q->lower <= *upper && settled(q) &&
                 !(warm && (end == STILL || end == INSIDE) && coarse(q, *upper) && !g->exact))

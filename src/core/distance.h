@@ -51,7 +51,7 @@ typedef struct search {
     int pending;  /* s's spare slot holds a corner that was asked for and not taken in */
     int repeated; /* because it stood in the simplex already */
     int stuck;    /* because it brought v no nearer, although it lies lower along v */
-    real inside;  /* room in a full simplex, where that has been told */
+    real inside;  /* room in a full simplex, where it ended INSIDE */
     int weighed;  /* the walk has left the corners' weights here: */
     real weight[DIM + 1];
     int sidesteps; /* that brought v no nearer, to rounding */
@@ -67,6 +67,13 @@ typedef struct search {
 
 /* |v| is below half a rounding of the frame, which is of size 1 to 2: it has no direction. */
 static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
+
+/* Room in the full simplex, by its weights; where these show none, by itself. */
+static real room_inside(const search *q)
+{
+    real inside = q->weighed ? rough_room(&q->s, q->weight) : 0;
+    return inside > q->d.doubt ? inside : room(&q->s);
+}
 
 /* The nearest point's weights, from the walk if it has left them. */
 static inline void weigh_walked(const search *q, real weight[DIM + 1])
@@ -214,14 +221,15 @@ static inline int advance(search *q)
     memcpy(at, s->at, sizeof at);
     q->borrowed &= ~(1u << at[n]);
     s->n = n + 1;
-    real weight[DIM + 1];
-    vec v = nearest(s, weight);
+    vec v = nearest(s, q->weight);
     real vv = dot(v, v);
+    q->weighed = 1;
     if (!(vv < q->vv)) { /* once more without assumptions */
         /* of corners in a frame of size 1 to 2; a v as small as that itself has nothing to gain */
         real noise = q->vv > 16 * UNIT * UNIT ? 16 * UNIT * root(q->vv) : 0;
         memcpy(s->at, at, sizeof at);
         s->n = n + 1;
+        q->weighed = 0;
         v = nearest_of_all(s, 1u << n, 1, noise);
         vv = dot(v, v);
         if (!(vv < q->vv + noise) || q->sidesteps >= SIDESTEPS) {
@@ -308,7 +316,8 @@ static inline enum end consider(search *q, const goal *g)
         return STILL;
     }
     if (q->s.n > DIM) {
-        if (room(&q->s) > q->d.doubt || q->sidesteps++ >= SIDESTEPS) return INSIDE;
+        q->inside = room_inside(q);
+        if (q->inside > q->d.doubt || q->sidesteps++ >= SIDESTEPS) return INSIDE;
         project(q, 0);
     }
     if (vanished(q)) return STILL;
@@ -339,7 +348,11 @@ static int look(search *q)
 /* Walks on from the corner in the spare slot, least along q->v. */
 static enum end descend(search *q, const goal *g)
 {
-    if (vanished(q)) return q->s.n > DIM ? INSIDE : STILL;
+    if (vanished(q)) {
+        if (q->s.n <= DIM) return STILL;
+        q->inside = room_inside(q);
+        return INSIDE;
+    }
     for (;;) {
         enum end end = consider(q, g);
         if (end != OPEN || q->steps >= g->max_steps) return end;

@@ -184,13 +184,6 @@ static inline int is_corner(const body *k, vec x)
     return 0;
 }
 
-/* Room in the full simplex, by its weights; where these show none, by itself. */
-static real room_inside(const search *q)
-{
-    real inside = q->weighed ? rough_room(&q->s, q->weight) : 0;
-    return inside > q->d.doubt ? inside : room(&q->s);
-}
-
 /* From the points of the last query, if they are corners still: nothing is taken on trust. 0: they are not, or v has no
  * direction. */
 static int reopen_listed(search *q, const cache *k)
