@@ -4,6 +4,7 @@
 #define GJK_CORE_API_H
 
 #include "answer.h"
+#include "boxes.h"
 #include "fine.h"
 #include "intersect.h"
 #include "plain.h"
@@ -389,6 +390,8 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
         own = scaled(g, q->d.scale);
         g = &own;
     }
+    q->told = g->deep && tell_boxes(q, a, b, g, r);
+    if (q->told) return STILL;
     enum end end = stroll(q, g);
     q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
     int open = end == OPEN && q->steps < g->max_steps;

@@ -1,0 +1,323 @@
+/* SPDX-License-Identifier: MIT */
+/* Two boxes: how deep, against the exact truth. Boxes of all sorts: in line or turned by next to nothing, flat, long,
+ * one in the other, on one spot, touching, under maps that shear and mirror, of any unit. Most are told by their
+ * facets, which shows in that no step was taken; how many of each sort is printed, and held to a share where it is to
+ * be all of them. */
+#include "faults.h"
+#include "pairs.h"
+#include "settle.h"
+
+/* In u * scale. */
+#define VALUE_ERROR 2.0
+#define WIDTH 16.0
+#define NORMAL_ERROR 16.0
+#define POINT_ERROR 16.0
+#define UNIT_ERROR 4.0 /* in u */
+
+#define BOX_PAIRS 1500 /* of each sort */
+
+enum turned { IN_LINE, SPUN, TILTED, YAWED, UNLIKE, TURNS };
+static const char *const turned_name[TURNS] = {"in line", "turned", "tilted", "yawed", "sheared"};
+
+enum placed { CONCENTRIC, WITHIN, AT_FACE, ON_GRID, ANYWHERE, PLACES };
+static const char *const placed_name[PLACES] = {"on one spot", "one in the other", "at a face", "on a grid",
+                                                "anywhere"};
+
+static exact best;
+static truth nearly, spot;
+static pair p;
+static faults found;
+static long at;
+static const char *sort;
+static double worst_error, worst_width, worst_gap;
+
+static double scale(void) { return (double)nearly.scale + (double)p.a.shape.radius + (double)p.b.shape.radius; }
+
+static double far_out(void)
+{
+    double most = 0;
+    for (int i = 0; i < DIM; i++) {
+        most = fmax(most, fmax(fabs((double)p.a.pose.p[i]), fabs((double)p.b.pose.p[i])));
+    }
+    return most;
+}
+
+static double in_u(quad x) { return (double)(x / (quad)scale()) / U; }
+
+static void hold(const char *law, const V(result) * r, int holds, double by)
+{
+    if (holds || !note_fault(&found, law, by)) {
+        return;
+    }
+    print_error("%s boxes, pair %ld, %s: %s (%.3g)\n  value %.17g in %.17g .. %.17g; truth %.17g, steps %d\n  ",
+                VARIANT, at, sort, law, by, (double)r->value, (double)r->lower, (double)r->upper, (double)nearly.lower,
+                r->steps);
+    print_case(stderr, "intersect", &p.a, &p.b);
+}
+
+/* ---- drawing ---- */
+
+/* Axes go to axes, either way. */
+static void turn_squarely(draws *d, body *b)
+{
+    int at_axis[3] = {0, 1, 2}, k = below(d, DIM);
+    at_axis[0] = k;
+    at_axis[k] = 0;
+    for (int i = 0; i < DIM; i++) {
+        for (int j = 0; j < DIM; j++) {
+            b->pose.m[i * DIM + j] = (real)(at_axis[i] == j ? (below(d, 2) ? 1 : -1) : 0);
+        }
+    }
+}
+
+/* b's map is a's, turned by so much; about one of a's axes, or any. */
+static void turn_from(draws *d, double angle, int about)
+{
+    double small[DIM * DIM];
+    rotation(d, angle, small);
+#if DIM == 3
+    if (about >= 0) {
+        int i = (about + 1) % 3, j = (about + 2) % 3;
+        double l = sqrt(1 + angle * angle);
+        for (int k = 0; k < 9; k++) {
+            small[k] = k % 4 == 0;
+        }
+        small[4 * i] = small[4 * j] = 1 / l;
+        small[3 * i + j] = -angle / l;
+        small[3 * j + i] = angle / l;
+    }
+#else
+    (void)about;
+#endif
+    for (int i = 0; i < DIM; i++) {
+        for (int j = 0; j < DIM; j++) {
+            double sum = 0;
+            for (int k = 0; k < DIM; k++) {
+                sum += (double)p.a.pose.m[i * DIM + k] * small[k * DIM + j];
+            }
+            p.b.pose.m[i * DIM + j] = (real)sum;
+        }
+    }
+}
+
+static void draw_maps(draws *d, enum turned how)
+{
+    int about = below(d, DIM);
+    turn_squarely(d, &p.a);
+    turn_squarely(d, &p.b);
+    if (how != IN_LINE && below(d, 3)) {
+        turn(d, &p.a, 100);
+    }
+    switch (how) {
+    case SPUN:
+        turn(d, &p.b, 100);
+        break;
+    case TILTED:
+        turn_from(d, magnitude(d, -18, -2), -1);
+        break;
+    case YAWED:
+        turn_from(d, below(d, 2) ? magnitude(d, -18, -2) : between(d, 0.01, 3), about);
+        break;
+    case UNLIKE:
+        draw_affine(d, &p.a);
+        draw_affine(d, &p.b);
+        if (below(d, 2)) {
+            memcpy(p.b.pose.m, p.a.pose.m, sizeof p.b.pose.m);
+        }
+        break;
+    default:
+        break;
+    }
+    memset(p.a.pose.p, 0, sizeof p.a.pose.p);
+    memset(p.b.pose.p, 0, sizeof p.b.pose.p);
+}
+
+static void draw_halves(draws *d, body *b)
+{
+    int kind = below(d, 6);
+    for (int i = 0; i < DIM; i++) {
+        double x = kind == 0   ? 0.5
+                   : kind == 1 ? 0.25 * (1 + below(d, 4))
+                   : kind == 2 ? magnitude(d, -4, 1)
+                               : between(d, 0.2, 2);
+        b->half[i] = (real)(kind == 5 && below(d, 6) == 0 ? 0 : x);
+    }
+}
+
+/* Puts b at a place of a's own frame. */
+static void put(const double *x)
+{
+    for (int i = 0; i < DIM; i++) {
+        double sum = 0;
+        for (int j = 0; j < DIM; j++) {
+            sum += (double)p.a.pose.m[i * DIM + j] * x[j];
+        }
+        p.b.pose.p[i] = (real)sum;
+    }
+}
+
+static void place_b(draws *d, enum placed where)
+{
+    double x[DIM] = {0}, dir[DIM];
+    int k = below(d, DIM);
+    switch (where) {
+    case WITHIN:
+        for (int i = 0; i < DIM; i++) {
+            x[i] = (double)p.a.half[i] * between(d, -1, 1);
+        }
+        break;
+    case ON_GRID:
+        for (int i = 0; i < DIM; i++) {
+            x[i] = below(d, 3) == 0 ? (double)p.a.half[i] + (double)p.b.half[i] : 0.25 * (below(d, 7) - 3);
+        }
+        break;
+    default:
+        break;
+    }
+    put(x);
+    if (where == AT_FACE) {
+        axis_of(below(d, 2) ? &p.a : &p.b, k, dir);
+        stand_off(&p, dir, -magnitude(d, -17, 0));
+        for (int i = 0; i < DIM; i++) {
+            axis_of(&p.a, i, dir);
+            if (i != k) move(&p.b, dir, (double)p.a.half[i] * between(d, -1, 1));
+        }
+    }
+    if (where == ANYWHERE) {
+        unit(d, dir);
+        stand_off(&p, dir, -magnitude(d, -6, 1));
+    }
+}
+
+static void draw_boxes(draws *d, enum turned how, enum placed where)
+{
+    double by = 1;
+    start_body(&p.a, BOX);
+    start_body(&p.b, BOX);
+    draw_halves(d, &p.a);
+    draw_halves(d, &p.b);
+    if (below(d, 4) == 0) {
+        memcpy(p.b.half, p.a.half, sizeof p.a.half);
+    }
+    draw_maps(d, how);
+    place_b(d, where);
+    if (below(d, 8) == 0) {
+        by = power_of_ten(below(d, 21) - 10);
+    }
+    if (below(d, 32) == 0) {
+        by = ldexp(1, (sizeof(real) == 8 ? 320 : 40) * (below(d, 2) ? 1 : -1));
+    }
+    scale_pair(&p, by);
+    if (below(d, 8) == 0) {
+        for (int i = 0; i < DIM; i++) {
+            double x = between(d, -10, 10) * by;
+            p.a.pose.p[i] = (real)((double)p.a.pose.p[i] + x);
+            p.b.pose.p[i] = (real)((double)p.b.pose.p[i] + x);
+        }
+    }
+    bind_pair(&p);
+    p.a.shape.radius = below(d, 8) == 0 ? (real)(by * between(d, 0, 1)) : 0;
+    p.b.shape.radius = below(d, 8) == 0 ? (real)(by * between(d, 0, 1)) : 0;
+}
+
+/* ---- the laws ---- */
+
+static quad off_truth(quad x) { return positive(x > nearly.upper ? x - nearly.upper : nearly.lower - x); }
+
+static quad along_normal(const body *b, const real *normal, int sign)
+{
+    quad n[DIM], x[DIM], sum = 0;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)normal[i] * (quad)sign;
+    }
+    farthest_of_body(b, no_origin, 1, n, x);
+    for (int i = 0; i < DIM; i++) {
+        sum += n[i] * x[i];
+    }
+    return sum / norm(n);
+}
+
+static quad stands_off(const body *b, const real *point)
+{
+    static body dot;
+    start_body(&dot, POINTS);
+    dot.count = 1;
+    memcpy(dot.v[0], point, sizeof dot.v[0]);
+    bind(&dot);
+    find_truth(&spot, &dot, b, 0);
+    settle(&spot, &best, &dot, b);
+    return spot.lower;
+}
+
+static void check_points(const V(result) * r)
+{
+    const quad most = (quad)(POINT_ERROR * U * (scale() + far_out()));
+    quad gap = 0, off_a = stands_off(&p.a, r->point_a), off_b = stands_off(&p.b, r->point_b);
+    for (int i = 0; i < DIM; i++) {
+        quad x = quad_abs((quad)r->point_a[i] - (quad)r->point_b[i] + (quad)r->value * (quad)r->normal[i]);
+        gap = x > gap ? x : gap;
+    }
+    worst_gap = fmax(worst_gap, (double)(gap / most) * POINT_ERROR);
+    hold("the points are in their boxes", r, off_a <= most && off_b <= most, in_u(off_a > off_b ? off_a : off_b));
+    hold("the points are apart by the depth along the normal", r, gap <= most, in_u(gap));
+}
+
+/* Whether it was told without a step. */
+static int check(const V(result) * r)
+{
+    quad n[DIM], along, width = (quad)r->upper - (quad)r->lower, error = off_truth((quad)r->value);
+    hold("the bracket holds", r, (quad)r->lower <= nearly.upper && nearly.lower <= (quad)r->upper,
+         in_u(quad_abs(off_truth((quad)r->lower)) + quad_abs(off_truth((quad)r->upper))));
+    hold("the value is in the bracket", r, r->lower <= r->value && r->value <= r->upper, 0);
+    if (r->steps > 0 || nearly.lower > 0 || !(scale() * U >= (double)REAL_MIN)) {
+        return 0; /* the search's answers have tests of their own */
+    }
+    worst_error = fmax(worst_error, in_u(error));
+    worst_width = fmax(worst_width, in_u(width));
+    hold("the value is near", r, in_u(error) <= VALUE_ERROR, in_u(error));
+    hold("the bracket is narrow", r, in_u(width) <= WIDTH, in_u(width));
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)r->normal[i];
+    }
+    hold("the normal is unit", r, quad_abs(norm(n) - 1) <= (quad)(UNIT_ERROR * U), (double)norm(n) - 1);
+    along = -along_normal(&p.a, r->normal, 1) - along_normal(&p.b, r->normal, -1);
+    hold("the normal leads out", r, in_u(nearly.lower - along) <= NORMAL_ERROR, in_u(nearly.lower - along));
+    hold("the normal realises lower", r, in_u((quad)r->lower - along) <= (double)UNIT_ERROR,
+         in_u((quad)r->lower - along));
+    check_points(r);
+    return 1;
+}
+
+static void depths_of_boxes(void **state)
+{
+    (void)state;
+    for (int how = 0; how < TURNS; how++) {
+        for (int where = 0; where < PLACES; where++) {
+            long told = 0, meet = 0;
+            worst_error = worst_width = worst_gap = 0;
+            sort = turned_name[how];
+            for (at = 0; at < BOX_PAIRS / PLACES; at++) {
+                draws d = draws_from(1, (uint64_t)(how * PLACES + where), (uint64_t)at);
+                V(result) r;
+                memset(&r, 0, sizeof r);
+                draw_boxes(&d, (enum turned)how, (enum placed)where);
+                find_truth(&nearly, &p.a, &p.b, 1);
+                assert_true(settle(&nearly, &best, &p.a, &p.b));
+                assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+                told += check(&r);
+                meet += !(nearly.lower > 0);
+            }
+            print_message("%-8s %-16s: %4ld meet, %4ld told by their facets; error %.2f, width %.1f, points %.1f\n",
+                          turned_name[how], placed_name[where], meet, told, worst_error, worst_width, worst_gap);
+        }
+    }
+    print_faults(&found, "boxes");
+    assert_int_equal(found.count, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(depths_of_boxes)};
+    exact_start(&best);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
