@@ -256,9 +256,21 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     return further == FAULT ? end : further;
 }
 
+/* Tightens from the simplex as it is, or where that can't be done from the one that the search ended with. OPEN: more
+ * steps might do it. */
+static enum end tighten_from_either(search *q, const shape *a, const shape *b, const goal *g, result *r, real weight[],
+                                    const simplex *searched)
+{
+    enum end end = tighten(q, a, b, g, r, weight);
+    if (end == STILL) return STILL;
+    q->s = *searched;
+    enum end again = tighten(q, a, b, g, r, weight);
+    return again == FAULT ? end : again;
+}
+
 /* The same of known corners; where rounding does not tell whether they meet, that is found out without it, from the
  * lowest facet, or where that has too many digits from where the search ended; and if they do not the answer is the
- * distance. */
+ * distance. Where that is not found out for want of steps, so it says. */
 static enum end plumb_and_tell(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
                                real weight[], result *r)
 {
@@ -266,10 +278,8 @@ static enum end plumb_and_tell(search *q, const shape *a, const shape *b, const 
     enum end end = plumb(q, a, b, o, g, &upper, weight, r);
     if (end == FAULT || !EXACT || upper <= 0) return end;
     result apart = *r;
-    if (tighten(q, a, b, g, &apart, weight) != STILL) {
-        q->s = searched;
-        if (tighten(q, a, b, g, &apart, weight) != STILL) return end;
-    }
+    enum end told = tighten_from_either(q, a, b, g, &apart, weight, &searched);
+    if (told != STILL) return told == OPEN ? OPEN : end;
     if (!q->met) {
         *r = apart;
         return STILL;
