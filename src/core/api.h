@@ -158,7 +158,6 @@ static int unanswered(const search *q, const result *r, const options *o, const 
     real near = g->radius * q->d.scale, margin = (real)(g->sign_only ? 8 : 32) * q->d.doubt + 16 * UNIT * near;
     if (g->deep && upper < 0) return 0;
     if (r->lower <= 0 && r->upper > 0) return 1;
-    if (q->fine) return 0;
     if (g->sign_only && r->lower > 0) return 0;
     if (q->lower <= near + margin && upper >= near - margin) return 1;
     if (g->deep && q->lower <= margin) return 1;
@@ -202,10 +201,10 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
     witness(r, q, weight, a, b, g->deep);
     r->value = 0;
     if (g->sign_only) return;
-    real doubt = q->fine ? 0 : q->d.doubt;
+    real doubt = q->d.doubt;
     real low = q->lower + doubt - 2 * UNIT * (size(q->lower) + doubt);
     real high = upper - doubt + 2 * UNIT * (size(upper) + doubt);
-    twin l = q->fine ? q->apart : refine(q, weight);
+    twin l = refine(q, weight);
     if (l.high > high) l = (twin){high, 0};
     if (l.high < low) l = (twin){low, 0};
     twin value = sum_of(l.high, -g->radius * q->d.scale);
@@ -328,10 +327,30 @@ static enum end go_deep(search *q, const shape *a, const shape *b, const options
     return further == FAULT ? end : further;
 }
 
+/* Where the search has come to its end near contact: what is seen to twice the digits. It is told (q->told), or they
+ * meet, and how deep is to be asked. 0: neither. */
+static int settle_near(search *q, const shape *a, const shape *b, const goal *g, real weight[], real *upper, result *r)
+{
+    enum sighting seen = NOTHING;
+    if (vanished(q) || q->s.n > DIM) seen = holds_origin(q, a, b, weight) ? MEETING : NOTHING;
+    if (q->d.a.asked == BY_CALL) q->d.a.list = corners_of(a);
+    if (q->d.b.asked == BY_CALL) q->d.b.list = corners_of(b);
+    q->weighed = 0;
+    if (seen == NOTHING) seen = tell_near(q, a, b, g, weight, r);
+    if (seen == MEETING) {
+        q->pending = 0;
+        q->met = 1;
+        *upper = smaller(*upper, 0);
+        if (!g->deep) tell_meeting(q, a, b, *upper, weight, r);
+    }
+    q->told = seen == APART_FINELY || (seen == MEETING && !g->deep);
+    return seen != NOTHING;
+}
+
 /* The cores' search from where the walk stands, its bracket with the radii taken off, and what a finish adds. FAULT: a
  * support's answer was none, or the bounds cross. */
-static enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
-                      result *r)
+static APART enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
+                            result *r)
 {
     real upper, weight[DIM + 1];
     q->met = 0;
@@ -340,7 +359,8 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     /* the distance of known corners needs no probing, the exact finish tells more; overlap does */
     int probed = still && !g->deep && (g->sign_only || !g->exact);
     int tried = still && g->exact && !o->tight && is_doubtful(q, g, upper);
-    int settled = tried && settle_apart(q, a, b, g, weight, &upper);
+    int settled = tried && settle_near(q, a, b, g, weight, &upper, r);
+    if (q->told) return STILL;
     if (end == FAULT || (probed && !settled && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
     bracket(r, &q->d, q->lower, upper, a, b);
     if (still && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
@@ -348,7 +368,6 @@ static enum end solve(search *q, const shape *a, const shape *b, const options *
     if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
     else if (still && !g->exact) further = take_further(q, a, b, o, g, upper, weight, r);
     if (end == FAULT) return FAULT;
-    if (o->cache) remember(o->cache, q, a, b);
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
@@ -379,15 +398,26 @@ static int is_to_last_place(const result *r)
     return r->upper - r->lower <= 8 * UNIT * larger(size(r->lower), size(r->upper)) + 8 * TINY;
 }
 
+/* The corner in the spare slot lies lower along v than the simplex by so little at most that the simplex may do. */
+static int is_about_lowest(const search *q, const goal *g)
+{
+    real height = dot(q->v, corner(&q->s, q->s.n)->w), gap = q->vv - height;
+    return height > 0 && (g->sign_only || !(gap * gap > 16 * UNIT * UNIT * q->vv));
+}
+
 /* Where the walk stops at a corner that it does not take in, or one that brings v no nearer: contact of few digits, or
  * a gap that rounding all but blurs. */
 static int tell_closely(search *q, const shape *a, const shape *b, const goal *g, int open, result *r)
 {
+    real weight[DIM + 1];
     know_offset(&q->d, a, b);
     if (open && !g->deep && tell_touch(q, a, b, r)) return 1;
-    if (!tell_near(q, a, b, g, r)) return 0;
-    r->steps = q->steps += open;
-    return 1;
+    if (q->s.n > DIM || !is_about_lowest(q, g)) return 0;
+    q->steps += open;
+    enum sighting seen = tell_near(q, a, b, g, g->deep ? NULL : weight, r);
+    if (seen == MEETING) tell_meeting(q, a, b, 0, weight, r);
+    q->steps -= open && seen == NOTHING;
+    return seen != NOTHING;
 }
 
 /* The everyday way, of sets whose corners are known. How far it led; FAULT: nowhere. q->told: to the answer. */
@@ -419,7 +449,9 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
     if (q->told) return 0;
     if (!sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
     *end = solve(q, a, b, o, g, *end, r);
-    return *end == FAULT ? GJK_BAD_SUPPORT : 0;
+    if (*end == FAULT) return GJK_BAD_SUPPORT;
+    if (o->cache) remember(o->cache, q, a, b);
+    return 0;
 }
 
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)

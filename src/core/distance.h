@@ -56,8 +56,6 @@ typedef struct search {
     real weight[DIM + 1];
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
-    int fine;            /* the bounds are those of corners known to twice the digits, and carry no doubt */
-    twin apart;          /* then: the cores' distance */
     int told;            /* the answer is found, without more ado */
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
@@ -397,7 +395,6 @@ static void blank(search *q)
     q->steps = 0;
     q->lender = NULL;
     q->borrowed = 0;
-    q->fine = 0;
     q->kept = 0;
     q->weighed = 0;
 }

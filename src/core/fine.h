@@ -1,196 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* Cores that are known by their corners, and apart by so little that rounded corners hardly tell: v worked out anew,
- * the height of the lowest corners along it and the length of the pair that goes with it, all to twice the digits. The
- * bounds prove themselves, however v was come by; where they do not tell enough, the exact finish does. */
+/* Cores that are known by their corners, where rounded corners hardly tell: so near to each other, or with radii that
+ * so nearly fill the gap. The pair of points that the weights single out is placed to twice the digits, the way between
+ * them made square to the simplex, and the height of the lowest corners along it worked out to as many. The bounds
+ * prove themselves, however the simplex was come by; where they do not tell enough, the exact finish does. */
 #ifndef GJK_CORE_FINE_H
 #define GJK_CORE_FINE_H
 
 #include "answer.h"
 #include "contact.h"
 
-/* A corner that v has not met yet is taken in so often. */
+/* So often another simplex is tried. */
 #define FINE_ROUNDS 4
 
-/* How far from their bodies' own positions the simplex's points lie: no more than the bodies' size, which may be far
- * below the frame's where points far out are mapped near. */
-static real size_of_points(const search *q)
-{
-    real r = 0;
-    for (int i = 0; i < q->s.n; i++) {
-        const vertex *p = corner(&q->s, i);
-        r = larger(peak(place(&q->d.a, p->x)), larger(peak(place(&q->d.b, p->y)), r));
-    }
-    return r;
-}
-
-/* They tell the sign, the radii taken off; and where the distance is wanted, that to two roundings of the bodies. */
-static int is_fine(const search *q, const goal *g, real lower, real upper)
-{
-    real near = g->radius * q->d.scale;
-    int told = lower > near + 4 * UNIT * near || (lower > 0 && upper < near - 4 * UNIT * near);
-    return told && (g->sign_only || upper - lower <= 2 * UNIT * smaller(size_of_points(q), 1));
-}
-
-/* The corner in that slot to twice the digits: w rounded once, and what that takes away. */
-static void polish(search *q, int slot, vec low[DIM + 1])
-{
-    vertex *p = &q->s.slot[slot];
-    vec lost = lost_of(q, p);
-    for (int i = 0; i < DIM; i++) {
-        twin t = sum_of(p->w.c[i], lost.c[i]);
-        p->w.c[i] = t.high;
-        low[slot].c[i] = t.low;
-    }
-}
-
-/* Puts a corner that was found, not asked for, where the next one goes. */
-static void put_spare(search *q, const vertex *c, vec low[DIM + 1])
-{
-    q->borrowed &= ~(1u << q->s.at[q->s.n]);
-    *spare(&q->s) = *c;
-    spare(&q->s)->w = corner_of(&q->d, c->x, c->y);
-    polish(q, q->s.at[q->s.n], low);
-}
-
-static void count_step(search *q)
-{
-    q->steps++;
-    q->d.calls += 2;
-}
-
-/* Takes in a corner farther along the way than the simplex. 0: it is none, or v comes no nearer by it. */
-static int take_corner(search *q, const vertex *c, vec low[DIM + 1])
-{
-    for (int i = 0; i < q->s.n; i++)
-        if (repeats(corner(&q->s, i), c)) return 0;
-    put_spare(q, c, low);
-    count_step(q);
-    return advance(q) && q->s.n <= DIM && !vanished(q);
-}
-
-/* Goes on from the corners as they are now, and with c. 0: nothing comes of it. */
-static int come_nearer(search *q, const goal *g, const vertex *c, vec low[DIM + 1], int anew)
-{
-    int before = q->s.n;
-    if (anew) project(q, 1);
-    int taken = q->steps < g->max_steps && take_corner(q, c, low);
-    return taken || q->s.n < before;
-}
-
-static vec low_of(const search *q, const vec low[DIM + 1], int i) { return low[q->s.at[i]]; }
-
-/* The point of A - B that the weights single out, to twice the digits: the heaviest corner, and shares of the ways from
- * there. It is in A - B: the shares add up to no more than 3/4, as none is above that of the corner they start from. */
-static vec fine_point(const search *q, const vec low[DIM + 1], const real weight[DIM + 1], vec *rest)
-{
-    int from = 0;
-    for (int k = 1; k < q->s.n; k++) from = weight[k] > weight[from] ? k : from;
-    vec r, at = point(&q->s, from), at_low = low_of(q, low, from);
-    for (int i = 0; i < DIM; i++) {
-        twin t = {at.c[i], at_low.c[i]};
-        for (int k = 0; k < q->s.n; k++) {
-            if (k == from) continue;
-            twin e = sum_of(point(&q->s, k).c[i], -at.c[i]);
-            gather(&t, product_of(weight[k], e.high));
-            t.low += weight[k] * (e.low + (low_of(q, low, k).c[i] - at_low.c[i]));
-        }
-        t = sum_of(t.high, t.low);
-        r.c[i] = t.high;
-        rest->c[i] = t.low;
-    }
-    return r;
-}
-
-/* v made square to the simplex, with edges that rounding took nothing from: of a point that is known to twice the
- * digits as good as it can be spelled. */
-static vec square_to_edges(const search *q, const vec low[DIM + 1], vec v)
-{
-    simplex edges = q->s;
-    if (q->s.n == 1) return v;
-    for (int i = 1; i < q->s.n; i++)
-        edges.slot[q->s.at[i]].w =
-            add(sub(point(&q->s, i), point(&q->s, 0)), sub(low_of(q, low, i), low_of(q, low, 0)));
-    edges.slot[q->s.at[0]].w = axis(0, 0);
-    return square_to(&edges, v);
-}
-
-/* The nearest point is well inside the simplex, so that no corner is in it by rounding alone, which would turn v: the
- * weights, less what the pair lies off v by. */
-static int is_inside(const search *q, const real weight[DIM + 1], vec off)
-{
-    real extra[DIM + 1];
-    int r = 1;
-    if (q->s.n == 1) return 1;
-    change(&q->s, off, extra);
-    for (int i = 0; i < q->s.n; i++) r &= weight[i] - extra[i] > 256 * UNIT;
-    return r;
-}
-
-/* The simplex holds the origin for certain: the cores meet. */
-static void note_meeting(search *q, real *upper)
-{
-    q->pending = 0;
-    q->met = q->fine = 1;
-    q->apart = (twin){0, 0};
-    *upper = smaller(*upper, 0);
-}
-
-/* Whether a facet and the corner that lies beyond the origin as seen from there hold it. */
-static int settle_beyond(search *q, const vertex *c, vec low[DIM + 1], real weight[DIM + 1], real *upper)
-{
-    simplex *s = &q->s;
-    spans w[DIM + 1];
-    put_spare(q, c, low);
-    s->n++;
-    for (int k = 0; k <= DIM; k++) {
-        vec high = point(s, k), rest = low_of(q, low, k);
-        for (int i = 0; i < DIM; i++) w[k].c[i] = (span){high.c[i], rest.c[i], 256 * UNIT * UNIT};
-    }
-    if (!is_carried(s, w, weight)) {
-        s->n--;
-        return 0;
-    }
-    count_step(q);
-    note_meeting(q, upper);
-    return 1;
-}
-
-/* Bounds the cores' separation from both sides. 0: that does not tell enough; the bounds of q and upper are as they
- * were, its simplex and the weights still are those of corners. */
-static APART int settle_apart(search *q, const shape *a, const shape *b, const goal *g, real weight[DIM + 1],
-                              real *upper)
-{
-    if ((vanished(q) || q->s.n > DIM) && holds_origin(q, a, b, weight)) {
-        note_meeting(q, upper);
-        return 1;
-    }
-    vec low[DIM + 1];
-    for (int i = 0; i < q->s.n; i++) polish(q, q->s.at[i], low);
-    for (int i = 0; i < FINE_ROUNDS && q->s.n <= DIM; i++) {
-        depth d = {.q = q, .a = a, .b = b, .g = g};
-        vertex c;
-        vec rest, w = fine_point(q, low, weight, &rest), v = square_to_edges(q, low, add(w, rest));
-        if (!(dot(v, v) > UNIT * UNIT * UNIT * UNIT)) return 0;
-        vec n = mul(v, -1 / length(v));
-        real lower = fine_bound(&d, n, &c), high = fine_length(w, rest);
-        if (is_fine(q, g, lower, high) && (g->sign_only || is_inside(q, weight, sub(add(w, rest), v)))) {
-            q->lower = lower;
-            q->normal = n;
-            q->fine = 1;
-            if (!g->sign_only) q->apart = height_to_twice(v, w, rest);
-            *upper = smaller(*upper, high);
-            return 1;
-        }
-        int may_hold = q->s.n == DIM && lower < 0 && q->steps < g->max_steps;
-        if (may_hold && settle_beyond(q, &c, low, weight, upper)) return 1;
-        int nearer = come_nearer(q, g, &c, low, i == 0);
-        certify(q, weight);
-        if (!nearer) return 0;
-    }
-    return 0;
-}
-
-/* ---- where the everyday walk ends so near to contact that rounded corners hardly tell ---- */
+/* ---- the way between the sets ---- */
 
 /* A vector to twice the digits. */
 typedef struct vec_twin {
@@ -203,6 +25,9 @@ typedef struct sight {
     vec x, y;     /* the sets' points there, rounded, times their grain */
     vec_twin edge_a[DIM + 1], edge_b[DIM + 1]; /* from the simplex's first corner to the others, of each body */
     real rise_a[DIM + 1], rise_b[DIM + 1];     /* how far up the way these lead */
+    vec edge[DIM + 1];                         /* of both, rounded; */
+    real aa, bb, ab, whole;                    /*   their products, of one the first alone: whole; of two the area */
+    real tall;                                 /* the simplex, at least */
     real moved;                                /* by how much the weights were changed */
     real turned;                               /* how far the way was turned last */
     real weight[DIM + 1];
@@ -286,22 +111,42 @@ static void look_across(sight *e, const search *q)
     e->moved = e->turned = 0;
 }
 
-/* Takes what leads so far up the way off it, by the simplex's edges; the weights then are those of the point that it
- * leads to. 0: the simplex is too narrow, or the pair is not where the weights were thought to have it. */
-static int turn(sight *e, const search *q, const real rise[DIM + 1], vec *off)
+/* The simplex's edges in plain numbers. 0: it is too narrow. */
+static int measure_edges(sight *e, const search *q)
 {
-    vec a = sub(e->edge_a[1].high, e->edge_b[1].high);
-    real share[3] = {0, 0, 0}, aa = dot(a, a);
-    share[1] = rise[1] / aa;
-    *off = mul(a, share[1]);
+    const vertex *p = corner(&q->s, 0);
+    for (int i = 1; i < q->s.n; i++) {
+        e->edge_a[i] = edge_between(&q->d.a, p->x, corner(&q->s, i)->x);
+        e->edge_b[i] = edge_between(&q->d.b, p->y, corner(&q->s, i)->y);
+        e->edge[i] = sub(e->edge_a[i].high, e->edge_b[i].high);
+    }
+    real aa = dot(e->edge[1], e->edge[1]);
+    e->whole = e->tall = e->aa = aa;
 #if DIM == 3
     if (q->s.n == 3) {
-        vec b = sub(e->edge_a[2].high, e->edge_b[2].high);
-        real bb = dot(b, b), ab = dot(a, b), whole = aa * bb - ab * ab;
-        if (!(whole > NARROW * aa * bb)) return 0;
-        share[1] = (rise[1] * bb - rise[2] * ab) / whole;
-        share[2] = (rise[2] * aa - rise[1] * ab) / whole;
-        *off = add(mul(a, share[1]), mul(b, share[2]));
+        real bb = dot(e->edge[2], e->edge[2]), ab = dot(e->edge[1], e->edge[2]);
+        e->whole = aa * bb - ab * ab;
+        e->tall = e->whole / (2 * (aa + bb));
+        e->bb = bb;
+        e->ab = ab;
+        if (!(e->whole > NARROW * aa * bb)) return 0;
+    }
+#endif
+    e->tall = root(e->tall);
+    return 1;
+}
+
+/* Takes what leads so far up the way off it, by the simplex's edges; the weights then are those of the point that it
+ * leads to. 0: the pair is not where the weights were thought to have it. */
+static int turn(sight *e, const search *q, const real rise[DIM + 1], vec *off)
+{
+    real share[3] = {0, rise[1] / e->whole, 0};
+    *off = mul(e->edge[1], share[1]);
+#if DIM == 3
+    if (q->s.n == 3) {
+        share[1] = (rise[1] * e->bb - rise[2] * e->ab) / e->whole;
+        share[2] = (rise[2] * e->aa - rise[1] * e->ab) / e->whole;
+        *off = add(mul(e->edge[1], share[1]), mul(e->edge[2], share[2]));
     }
 #endif
     for (int i = 1; i < q->s.n; i++) {
@@ -322,13 +167,9 @@ static int make_square(sight *e, const search *q)
 {
     real rise[DIM + 1] = {0};
     vec off;
-    const vertex *p = corner(&q->s, 0);
     if (q->s.n == 1) return 1;
-    for (int i = 1; i < q->s.n; i++) {
-        e->edge_a[i] = edge_between(&q->d.a, p->x, corner(&q->s, i)->x);
-        e->edge_b[i] = edge_between(&q->d.b, p->y, corner(&q->s, i)->y);
-        rise[i] = dot(e->way.high, sub(e->edge_a[i].high, e->edge_b[i].high));
-    }
+    if (!measure_edges(e, q)) return 0;
+    for (int i = 1; i < q->s.n; i++) rise[i] = dot(e->way.high, e->edge[i]);
     if (!turn(e, q, rise, &off)) return 0;
     for (int i = 1; i < q->s.n; i++) {
         e->rise_a[i] = rise_along(&e->way, &e->edge_a[i]);
@@ -353,26 +194,33 @@ static real rise_to(const sight *e, const body *k, const simplex *s, size_t memb
     return rise_along(&e->way, &edge);
 }
 
-/* How far any corner of the body leads down the way from the simplex's first, or with sign -1 up: not above 0. Rounded
- * heights tell which corners do not; a box's edges are asked one by one. */
-static real fall_of(const sight *e, const body *k, const simplex *s, size_t member, const real rise[DIM + 1], real sign)
+/* How far any corner of the body leads down the way from the simplex's first, or with sign -1 up: not above 0; x is
+ * that corner. Rounded heights tell which corners do not; a box's edges are asked one by one. */
+static real fall_of(const sight *e, const body *k, const simplex *s, size_t member, const real rise[DIM + 1], real sign,
+                    vec *x)
 {
-    vec first = member_of(corner(s, 0), member);
+    vec first = *x = member_of(corner(s, 0), member);
     vec rough = mul(k->posed ? pull(k->m, e->way.high) : e->way.high, sign);
     real far = k->size == 0 ? 0 : k->reach * k->grain, least = 0, sum = 0;
     real clear = 64 * UNIT * (k->norm * far) * spread(e->way.high);
     for (int i = 0; i < DIM && k->asked == AS_BOX; i++) {
-        vec x = first;
-        x.c[i] = -x.c[i];
+        vec y = first;
+        y.c[i] = -y.c[i];
         if (first.c[i] * k->grain * rough.c[i] * -2 > clear) continue;
-        sum += smaller(0, sign * rise_to(e, k, s, member, rise, x));
+        real fall = sign * rise_to(e, k, s, member, rise, y);
+        if (!(fall < 0)) continue;
+        sum += fall;
+        x->c[i] = y.c[i];
     }
     if (k->asked == AS_BOX) return sum;
     clear += dot(mul(first, k->grain), rough);
     for (size_t i = 0; i < k->list.count; i++) {
-        vec x = load(k->list.v + i * k->list.step);
-        if (dot(mul(x, k->grain), rough) > clear || same(x, first)) continue;
-        least = smaller(least, sign * rise_to(e, k, s, member, rise, x));
+        vec y = nth_of(&k->list, i);
+        if (dot(mul(y, k->grain), rough) > clear || same(y, first)) continue;
+        real fall = sign * rise_to(e, k, s, member, rise, y);
+        if (!(fall < least)) continue;
+        least = fall;
+        *x = y;
     }
     return least;
 }
@@ -387,14 +235,14 @@ static twin length_of_way(const vec_twin *way)
     return sum_of(l, ((square.high - back.high) + (square.low - back.low)) / (2 * l));
 }
 
-/* By how much less than that the sets are apart along the way: the simplex's corners are not level, and others lower.
- */
-static real short_of_way(const sight *e, const search *q, real length)
+/* By how much less than that the sets are apart along the way: the simplex's corners are not level, and others lower:
+ * last is the corner that lies lowest, of points alone. */
+static real short_of_way(const sight *e, const search *q, real length, vertex *last)
 {
     real r = 0;
     for (int i = 1; i < q->s.n; i++) r += e->weight[i] * (e->rise_a[i] - e->rise_b[i]);
-    r -= fall_of(e, &q->d.a, &q->s, offsetof(vertex, x), e->rise_a, 1);
-    r -= fall_of(e, &q->d.b, &q->s, offsetof(vertex, y), e->rise_b, -1);
+    r -= fall_of(e, &q->d.a, &q->s, offsetof(vertex, x), e->rise_a, 1, &last->x);
+    r -= fall_of(e, &q->d.b, &q->s, offsetof(vertex, y), e->rise_b, -1, &last->y);
     return r / length;
 }
 
@@ -407,12 +255,14 @@ static real below_gap(twin l, real off, real radius_a, real radius_b)
     return below(s.high, s.low, 0);
 }
 
-/* No corner is in the simplex by rounding alone. */
-static int is_amid(const real weight[DIM + 1], int n)
+/* The corners that are in the simplex by more than the pair may be off, high; another would turn the way, or is none of
+ * it. */
+static unsigned corners_amid(const sight *e, int n, real high)
 {
-    int r = 1;
-    for (int i = 0; i < n; i++) r &= weight[i] > 256 * UNIT;
-    return r;
+    unsigned mask = 0;
+    if (n == 1) return 1;
+    for (int i = 0; i < n; i++) mask |= e->weight[i] * e->tall > 16 * high ? 1u << i : 0;
+    return mask;
 }
 
 /* The bodies' size at the simplex, or less. */
@@ -430,26 +280,31 @@ static real rescaled(real bound, real unscale, real way_out)
     return size(r) < REAL_MIN ? r + way_out * 2 * TINY : r;
 }
 
-/* The corner in the spare slot lies lower along v than the simplex by so little at most that the simplex may do. */
-static int is_about_lowest(const search *q, const goal *g)
-{
-    real height = dot(q->v, corner(&q->s, q->s.n)->w), gap = q->vv - height;
-    return height > 0 && (g->sign_only || !(gap * gap > 16 * UNIT * UNIT * q->vv));
-}
+/* What is left to do where a look does not tell enough. */
+typedef struct glimpse {
+    unsigned amid; /* the corners that are in the simplex for certain */
+    int seen;      /* all are: then */
+    vertex last;   /*   the corner that lies lowest, of points alone, */
+    int beyond;    /*   and whether the origin lies between */
+} glimpse;
 
-/* The distance or its sign, where the walk has come to its end. 0: the bounds do not tell enough. */
-static APART int tell_near(search *q, const shape *a, const shape *b, const goal *g, result *r)
+/* The distance or its sign, as the pair tells that the simplex singles out. 0: that is not enough. */
+static APART int tell_pair(search *q, const shape *a, const shape *b, const goal *g, glimpse *left, result *r)
 {
     sight e;
-    if (q->s.n > DIM || q->s.n == 0 || !is_about_lowest(q, g)) return 0;
-    weigh(&q->s, e.weight);
-    look_across(&e, q);
-    if (!make_square(&e, q) || !is_amid(e.weight, q->s.n)) return 0;
     real radius_a = a->radius * q->d.scale, radius_b = b->radius * q->d.scale, rounded = UNIT * UNIT;
+    weigh_walked(q, e.weight);
+    look_across(&e, q);
+    int square = make_square(&e, q);
+    real high = 256 * rounded + 32 * UNIT * e.moved;
+    left->seen = 0;
+    left->amid = corners_amid(&e, q->s.n, high);
+    if (!square || left->amid + 1 != 1u << q->s.n) return 0;
     twin l = length_of_way(&e.way);
     if (!(l.high > 4096 * rounded) || !(radius_a + radius_b < 8)) return 0;
-    real high = 256 * rounded + 32 * UNIT * e.moved;
-    real low = high + 768 * rounded + 64 * UNIT * e.turned / l.high + short_of_way(&e, q, l.high);
+    real low = high + 768 * rounded + 64 * UNIT * e.turned / l.high + short_of_way(&e, q, l.high, &left->last);
+    left->seen = 1;
+    left->beyond = q->s.n == DIM && l.high < low;
     real lower = below_gap(l, low, radius_a, radius_b);
     real upper = -below_gap((twin){-l.high, -l.low}, high, -radius_a, -radius_b);
     int deep = g->deep && upper < 0; /* but only the radii overlap */
@@ -468,6 +323,108 @@ static APART int tell_near(search *q, const shape *a, const shape *b, const goal
     return 1;
 }
 
+/* ---- other simplices ---- */
+
+/* The corner's w rounded once. */
+static void polish(search *q, vertex *p) { p->w = add(p->w, lost_of(q, p)); }
+
+/* Puts a corner that was found, not asked for, where the next one goes. */
+static void put_spare(search *q, const vertex *c)
+{
+    q->borrowed &= ~(1u << q->s.at[q->s.n]);
+    *spare(&q->s) = *c;
+    spare(&q->s)->w = corner_of(&q->d, c->x, c->y);
+}
+
+static void count_step(search *q)
+{
+    q->steps++;
+    q->d.calls += 2;
+}
+
+/* Whether the simplex, which is a facet, and the corner that lies beyond the origin as seen from there hold it. */
+static int holds_with(search *q, const shape *a, const shape *b, const vertex *c, real weight[DIM + 1])
+{
+    put_spare(q, c);
+    q->s.n++;
+    if (holds_origin(q, a, b, weight)) {
+        count_step(q);
+        return 1;
+    }
+    q->s.n--;
+    return 0;
+}
+
+/* Takes in the corner that was seen. 0: v comes no nearer by it. */
+static int take_corner(search *q, const goal *g, const vertex *c)
+{
+    for (int i = 0; i < q->s.n; i++)
+        if (repeats(corner(&q->s, i), c)) return 0;
+    if (q->steps >= g->max_steps) return 0;
+    put_spare(q, c);
+    polish(q, spare(&q->s));
+    count_step(q);
+    return advance(q) && q->s.n <= DIM && !vanished(q);
+}
+
+/* Goes on to another simplex: without corners that have shown to be none of it; or from its corners rounded once, and
+ * with that which was seen. 0: there is none. */
+static int go_on(search *q, const goal *g, const glimpse *left, int anew)
+{
+    int before = q->s.n;
+    if (!left->seen) {
+        if (left->amid + 1 == 1u << before || left->amid == 0) return 0;
+        keep(&q->s, left->amid);
+        project(q, 1);
+        q->weighed = 0;
+        return 1;
+    }
+    for (int i = 0; i < before && anew; i++) polish(q, &q->s.slot[q->s.at[i]]);
+    if (anew) project(q, 1);
+    q->weighed = 0;
+    return take_corner(q, g, &left->last) || q->s.n < before;
+}
+
+enum sighting { NOTHING, APART_FINELY, MEETING };
+
+/* The same from other simplices. NOTHING: q is as it was. */
+static APART enum sighting look_around(search *q, const shape *a, const shape *b, const goal *g, glimpse *left,
+                                       real *weight, result *r)
+{
+    search kept = *q;
+    for (int i = 0; i < FINE_ROUNDS; i++) {
+        int meet = left->seen && left->beyond && weight && q->steps < g->max_steps;
+        if (meet && holds_with(q, a, b, &left->last, weight)) return MEETING;
+        if (!go_on(q, g, left, i == 0)) break;
+        if (tell_pair(q, a, b, g, left, r)) return APART_FINELY;
+    }
+    *q = kept;
+    return NOTHING;
+}
+
+/* The distance or its sign, told; or, where weights are asked for, that the cores meet, with these. */
+static enum sighting tell_near(search *q, const shape *a, const shape *b, const goal *g, real *weight, result *r)
+{
+    glimpse left;
+    if (q->s.n > DIM || q->s.n == 0) return NOTHING;
+    return tell_pair(q, a, b, g, &left, r) ? APART_FINELY : look_around(q, a, b, g, &left, weight, r);
+}
+
+/* That the cores meet, as the simplex and these weights prove. */
+static void tell_meeting(search *q, const shape *a, const shape *b, real upper, const real weight[DIM + 1], result *r)
+{
+    vec x = blend(&q->s, weight, offsetof(vertex, x), q->d.a.grain);
+    vec y = blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain);
+    q->pending = 0;
+    bracket(r, &q->d, q->lower, smaller(upper, 0), a, b);
+    r->value = 0;
+    place_points(r, q, x, y, axis(0, 0), a, b, 0);
+    store(r->normal, q->normal);
+    r->steps = q->steps;
+    r->supports = q->d.calls;
+    r->reserved = 0;
+}
+
 /* That the cores meet, where the corner in the spare slot makes the simplex hold the origin, with nothing rounded. 0:
  * that is not told, and the simplex is as it was. */
 static APART int tell_touch(search *q, const shape *a, const shape *b, result *r)
@@ -483,17 +440,8 @@ static APART int tell_touch(search *q, const shape *a, const shape *b, result *r
     }
     raise(q, q->v, q->s.slot[at[n]].w);
     q->borrowed &= ~(1u << at[n]);
-    q->pending = 0;
     q->steps++;
-    vec x = blend(&q->s, weight, offsetof(vertex, x), q->d.a.grain);
-    vec y = blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain);
-    bracket(r, &q->d, q->lower, 0, a, b);
-    r->value = 0;
-    place_points(r, q, x, y, axis(0, 0), a, b, 0);
-    store(r->normal, q->normal);
-    r->steps = q->steps;
-    r->supports = q->d.calls;
-    r->reserved = 0;
+    tell_meeting(q, a, b, 0, weight, r);
     return 1;
 }
 
