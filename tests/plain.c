@@ -346,6 +346,61 @@ static void square_to_corners_far_away(void **state)
     assert_true(worst <= 0x1p14 && worst > 0); /* edges that a map flattens lose digits, or whose angle is small */
 }
 
+/* ---- how far below the way's end the sets reach ---- */
+
+/* The lowest height of a box's corners along v, or with sign -1 minus the highest, in the frame. */
+static quad lowest_of(const shape *s, const box *b, real grain, const quad v[DIM], int sign)
+{
+    quad least = 0;
+    for (int j = 0; j < DIM; j++) {
+        quad up = 0;
+        for (int i = 0; i < DIM; i++) {
+            up += v[i] * (s->pose ? (quad)s->pose->m[DIM * i + j] : (quad)(i == j));
+        }
+        least -= quad_abs(up) * (quad)(b->half[j] * grain);
+    }
+    return sign * least;
+}
+
+/* Of any simplex, level or not: what it and the lowest corners take from the way's length is what they lie lower. */
+static void what_the_way_falls_short(void **state)
+{
+    double worst = 0;
+    (void)state;
+    state_of_draws = 9;
+    for (int k = 0; k < PAIRS; k++) {
+        sight s = {.tall = 0};
+        vertex last;
+        real fall;
+        quad v[DIM], square = 0, lowest = 0;
+        assert_true(open_pair());
+        q.s.n = 1 + k % DIM;
+        for (int i = 0; i < q.s.n; i++) {
+            q.s.slot[q.s.at[i]] = draw_corner();
+            s.weight[i] = any_real(0.1, 1);
+        }
+        normalize(s.weight, q.s.n);
+        look_across(&s, &q);
+        measure_edges(&s, &q);
+        for (int i = 1; i < q.s.n; i++) {
+            s.rise_a[i] = rise_along(&s.way, &s.edge_a[i]);
+            s.rise_b[i] = rise_along(&s.way, &s.edge_b[i]);
+        }
+        fall = short_of_way(&s, &q, length_of_way(&s.way).high, &last);
+        for (int i = 0; i < DIM; i++) {
+            v[i] = (quad)s.way.high.c[i] + (quad)s.way.low.c[i];
+            square += v[i] * v[i];
+            lowest -= v[i] * offset_of(i);
+        }
+        lowest += lowest_of(&shapes[0], &boxes[0], q.d.a.grain, v, 1);
+        lowest -= lowest_of(&shapes[1], &boxes[1], q.d.b.grain, v, -1);
+        worst = fmax(worst, (double)(quad_abs(square - lowest - (quad)fall * quad_sqrt(square)) / quad_sqrt(square)));
+    }
+    worst /= (double)UNIT;
+    printf("what the way falls short: within %.1f u\n", worst);
+    assert_true(worst <= 16 && worst > 0);
+}
+
 /* ---- facets that are placed by rounded corners ---- */
 
 static usual_room room_of_all;
@@ -495,6 +550,7 @@ int main(void)
         cmocka_unit_test(the_length),
         cmocka_unit_test(the_pair_is_v),
         cmocka_unit_test(square_to_corners_far_away),
+        cmocka_unit_test(what_the_way_falls_short),
         cmocka_unit_test(done_is_not_rough),
         cmocka_unit_test(spans_know_how_far_they_are_off),
         cmocka_unit_test(a_sign_is_certain),
