@@ -112,7 +112,7 @@ static inline twin depth_of(const wall *f) { return sum_of(f->height.high, f->he
 
 /* Of some that are equally low to rounding one is right under the origin: the lowest such; and how low the lowest of
  * all is. NULL: none. */
-static const wall *lowest_of(const zonotope *z, lows *f, twin *least)
+static const wall *lowest_wall(const zonotope *z, lows *f, twin *least)
 {
     const wall *best = NULL;
     *least = (twin){REAL_MAX, 0};
@@ -153,7 +153,7 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
     if (q->s.n <= DIM && dot(q->v, spare(&q->s)->w) > 0) return 0;
     know_offset(d, a, b);
     if (!take_boxes(&z, d) || !find_lows(&z, &f)) return 0;
-    const wall *low = lowest_of(&z, &f, &deep);
+    const wall *low = lowest_wall(&z, &f, &deep);
     if (!low) return 0;
     real least = f.of[0].floor;
     for (int k = 1; k < f.n; k++) least = smaller(f.of[k].floor, least);
