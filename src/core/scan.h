@@ -63,19 +63,17 @@ static inline real margin_of(const list *l, vec d) { return 8 * UNIT * l->reach 
 
 /* A point that is higher than the best one, if there is any among those of almost its height: of points that lie close
  * together far from their origin, their differences tell. A rise of which rounding leaves even the sign open counts
- * where it can't be wrong by more than 2 units of the reach, which heights leave of the licence. The best is the first
- * of that height. */
-static APART size_t settle_tie(const list *l, vec d, real height, real almost)
+ * where it can't be wrong by more than 2 units of the reach, which heights leave of the licence. */
+static APART size_t settle_tie(const list *l, vec d, size_t best, real almost)
 {
     const size_t n = l->count, step = l->step;
-    size_t best = 0;
-    while (best + 1 < n && dot(nth_of(l, best), d) != height) best++;
     const vec top = nth_of(l, best);
     real highest = 0, leave = 2 * UNIT * l->reach * peak(d);
     lanes none = in_all(0), least = in_all(almost);
     ways way = ways_of(d);
     for (size_t i = 0; i < n; i++) {
-        while (i + RUN < n && !any_as_large(highest_in_run(l->v + i * step, step, &way, &none), least)) i += RUN;
+        while (n >= MANY && i + RUN < n && !any_as_large(highest_in_run(l->v + i * step, step, &way, &none), least))
+            i += RUN;
         vec x = nth_of(l, i);
         if (!(dot(x, d) >= almost)) continue;
         vec e = sub(x, top);
@@ -105,7 +103,7 @@ static inline summit see(summit s, real height, size_t at)
 static inline size_t settle_summit(const list *l, vec d, summit s)
 {
     real almost = s.highest - margin_of(l, d);
-    return s.second >= almost ? settle_tie(l, d, s.highest, almost) : s.at;
+    return s.second >= almost ? settle_tie(l, d, s.at, almost) : s.at;
 }
 
 /* ---- few points, and many ---- */
@@ -156,6 +154,14 @@ static inline summit summit_of(const summits *all, const list *l, vec d)
     return s;
 }
 
+/* Lanes do not tell which of equals is the first. One of the points has that height. */
+static inline size_t first_of_height(const list *l, vec d, real height)
+{
+    size_t i = 0;
+    while (i + 1 < l->count && dot(nth_of(l, i), d) != height) i++;
+    return i;
+}
+
 /* As many runs as indices count; points beyond these are looked at one by one. */
 #define MOST_RUNS 0x7fffffffu
 
@@ -178,7 +184,9 @@ HOT size_t farthest_in_runs(const list *l, vec d, int trusted)
         none += height * 0;
         s = see(s, height, i);
     }
-    return trusted || none == 0 ? settle_summit(l, d, s) : l->count;
+    if (!trusted && !(none == 0)) return l->count;
+    if (s.second == s.highest) s.at = first_of_height(l, d, s.highest);
+    return settle_summit(l, d, s);
 }
 
 static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, 0); }
