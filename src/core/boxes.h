@@ -59,10 +59,10 @@ static int cross_parallel(const zonotope *z, int first, int second, pair_of_axes
 static int find_lows(const zonotope *z, lows *f)
 {
     pair_of_axes p[PAIRS_OF_AXES];
-    find_pairs(z, p);
+    if (!find_pairs(z, p)) return 0;
     const int best = lowest_pair(p);
     f->n = 0;
-    if (!is_steady(&p[best]) || p[best].height < -PAIR_DOUBT * p[best].size * z->far) return 0;
+    if (!is_steady(&p[best])) return 0;
     add_wall(f, z, p, best);
     const real height = larger(f->of[0].height.high, 0);
     for (int k = 0; k < PAIRS_OF_AXES; k++) {

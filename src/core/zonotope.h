@@ -59,6 +59,15 @@ static inline int take_boxes(zonotope *z, const difference *d)
 /* ---- the facets, in plain numbers ---- */
 
 /* Across which axes each facet is. */
+/* What a height may be off, times the length of the normal: in shares of size times far. */
+#define PAIR_DOUBT (32 * UNIT)
+
+/* It shows the boxes to be apart. */
+static inline int is_outside(const zonotope *z, const pair_of_axes *p)
+{
+    return p->height < -PAIR_DOUBT * p->size * z->far;
+}
+
 #if DIM == 2
 static const unsigned char first_of[PAIRS_OF_AXES] = {0, 1, 2, 3}, second_of[PAIRS_OF_AXES] = {0, 1, 2, 3};
 
@@ -69,19 +78,23 @@ static inline real height_of_pair(const zonotope *z, vec l)
     return h - size(dot(l, z->c));
 }
 
-static inline void find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
+/* 0: one of them shows the boxes to be apart. */
+static inline int find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
 {
     for (int k = 0; k < AXES; k++) {
         const vec u = z->u[k], l = {{-u.c[1], u.c[0]}};
         p[k] = (pair_of_axes){l, z->uu[k], height_of_pair(z, l), (z->uu[k] + 1) / 2};
+        if (is_outside(z, &p[k])) return 0;
     }
+    return 1;
 }
 #else
 static const unsigned char first_of[PAIRS_OF_AXES] = {1, 2, 0, 4, 5, 3, 0, 0, 0, 1, 1, 1, 2, 2, 2};
 static const unsigned char second_of[PAIRS_OF_AXES] = {2, 0, 1, 5, 3, 4, 3, 4, 5, 3, 4, 5, 3, 4, 5};
 
-/* Each product of three axes is part of several heights. */
-static inline void find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
+/* 0: one of them shows the boxes to be apart; those across axes of one box do as a rule. Each product of three axes is
+ * part of several heights. */
+static inline int find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
 {
     static const unsigned char next[5] = {0, 1, 2, 0, 1};
     real across[2][3][3]; /* of the face normal m of a box with axis k of the other */
@@ -96,10 +109,12 @@ static inline void find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
                 across[b][m][k] = size(dot(n[m], other[k]));
                 h += f[k] * across[b][m][k];
             }
-            p[3 * b + m].l = n[m];
-            p[3 * b + m].ll = dot(n[m], n[m]);
-            p[3 * b + m].height = h - size(dot(n[m], z->c));
-            p[3 * b + m].size = (z->uu[3 * b + next[m + 1]] + z->uu[3 * b + next[m + 2]]) / 2;
+            pair_of_axes *q = &p[3 * b + m];
+            q->l = n[m];
+            q->ll = dot(n[m], n[m]);
+            q->height = h - size(dot(n[m], z->c));
+            q->size = (z->uu[3 * b + next[m + 1]] + z->uu[3 * b + next[m + 2]]) / 2;
+            if (is_outside(z, q)) return 0;
         }
     }
     for (int i = 0; i < 3; i++) {
@@ -112,13 +127,12 @@ static inline void find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
             q->height = z->e[i1] * across[0][i2][j] + z->e[i2] * across[0][i1][j] + z->e[3 + j1] * across[1][j2][i] +
                         z->e[3 + j2] * across[1][j1][i] - size(dot(q->l, z->c));
             q->size = (z->uu[i] + z->uu[3 + j]) / 2;
+            if (is_outside(z, q)) return 0;
         }
     }
+    return 1;
 }
 #endif
-
-/* What a height may be off, times the length of the normal: in shares of size times far. */
-#define PAIR_DOUBT (32 * UNIT)
 
 /* Axes that are as good as parallel have no normal to trust. */
 #define PARALLEL ((real)0x1p-12)
