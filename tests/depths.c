@@ -1429,6 +1429,55 @@ static void turned_boxes(void **state)
     assert_true(mean(all[1].calls, all[1].pairs) <= DEEP_CALLS);
 }
 
+/* ---- the same on the same spot ---- */
+
+/* By small angles, from about a radian down to a rounding. */
+static void turn_slightly(draws *d, V(pose) * turned)
+{
+    double angle = pow(10, between(d, -17, 0)), x[3];
+    for (int i = 0; i < 3; i++) {
+        x[i] = angle * between(d, -1, 1);
+    }
+#if DIM == 3
+    *turned = (V(pose)){{1, (real)-x[2], (real)x[1], (real)x[2], 1, (real)-x[0], (real)-x[1], (real)x[0], 1}, {0}};
+#else
+    *turned = (V(pose)){{1, (real)-x[0], (real)x[0], 1}, {0}};
+#endif
+}
+
+/* Bricks by their corners, one turned in the other: many facets are all but equally low, and their feet lie side by
+ * side. The points are on one line with the normal. */
+static void bricks_on_one_spot(void **state)
+{
+    double worst = 0;
+    (void)state;
+    for (int at_pair = 0; at_pair < 4000; at_pair++) {
+        draws d = draws_from(seed + 9, 0, (uint64_t)at_pair);
+        real corners[1 << DIM][DIM], half[DIM];
+        V(pose) turned;
+        V(points) cloud = {corners[0], 1 << DIM, 0, 0, 0};
+        V(shape) a = {V(support_points), &cloud, NULL, 0}, b = {V(support_points), &cloud, &turned, 0};
+        V(result) r;
+        for (int i = 0; i < DIM; i++) {
+            half[i] = (real)between(&d, 0.1, 1);
+        }
+        for (int k = 0; k < 1 << DIM; k++) {
+            for (int i = 0; i < DIM; i++) {
+                corners[k][i] = k >> i & 1 ? half[i] : -half[i];
+            }
+        }
+        cloud.reach = V(points_reach)(&cloud);
+        turn_slightly(&d, &turned);
+        assert_true(V(penetration)(&a, &b, NULL, &r) == GJK_OK && r.upper < 0);
+        for (int i = 0; i < DIM; i++) {
+            double off = (double)r.point_a[i] - (double)r.point_b[i] + (double)r.value * (double)r.normal[i];
+            worst = fmax(worst, in_u((quad)off, 1));
+        }
+    }
+    printf("%-6s bricks on one spot: points off the normal by %.1f u\n", VARIANT, worst);
+    assert_true(worst <= 32);
+}
+
 /* ---- all ---- */
 
 static void read_arguments(int argc, char **argv)
@@ -1545,7 +1594,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(flat_pairs),
         cmocka_unit_test(uneven),
         cmocka_unit_test(paths),
-        cmocka_unit_test(turned_boxes)
+        cmocka_unit_test(turned_boxes),
+        cmocka_unit_test(bricks_on_one_spot)
     };
     struct CMUnitTest tests[FAMILIES + sizeof others / sizeof *others];
     read_arguments(argc, argv);

@@ -21,6 +21,19 @@ static real below_sum(real x, real y, real z)
     return below(s.high, s.low - 4 * UNIT * UNIT * (size(x) + size(r.high)), 0);
 }
 
+/* Radii times level, a power of two; what underflows there goes the bound's way. */
+static inline real above_scaled(real radius, real level, real up)
+{
+    real r = radius * level;
+    return r * up < radius ? r + TINY : r;
+}
+
+static inline real below_scaled(real radius, real level, real up)
+{
+    real r = radius * level;
+    return r * up > radius ? r - TINY : r;
+}
+
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
 static void bracket(result *r, const difference *d, real lower, real upper, const shape *a, const shape *b)
 {
@@ -33,8 +46,8 @@ static void bracket(result *r, const difference *d, real lower, real upper, cons
     real level = level_of(d, a->radius + b->radius, 0), down = level * d->unscale, up = 1 / level;
     real near = lower * down, far = upper * down;
     if (!sharp) {
-        near = below_sum(near, -a->radius * level, -b->radius * level);
-        far = -below_sum(-far, a->radius * level, b->radius * level);
+        near = below_sum(near, -above_scaled(a->radius, level, up), -above_scaled(b->radius, level, up));
+        far = -below_sum(-far, below_scaled(a->radius, level, up), below_scaled(b->radius, level, up));
     }
     r->lower = larger(near * up, -REAL_MAX);
     r->upper = far * up;

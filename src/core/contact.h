@@ -246,7 +246,8 @@ static void point_out(depth *d, real weight[DIM + 1])
     }
     d->floor = best;
     takes_normal(d, best);
-    hand_over(d, weight);
+    off = hand_over(d, weight);
+    if (off > 4 * UNIT) hand_over_from_any(d, off, weight);
 }
 
 /* The bounds as they are now, and whether what is settled is proven. */

@@ -417,6 +417,7 @@ static void tell_meeting(search *q, const shape *a, const shape *b, real upper, 
     vec y = blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain);
     q->pending = 0;
     bracket(r, &q->d, q->lower, smaller(upper, 0), a, b);
+    r->upper = smaller(r->upper, 0); /* also where it was rounded on the way out */
     r->value = 0;
     place_points(r, q, x, y, axis(0, 0), a, b, 0);
     store(r->normal, q->normal);
