@@ -357,9 +357,78 @@ static void depths_of_boxes(void **state)
     assert_int_equal(found.count, 0);
 }
 
+/* ---- numbers that underflow on the way ---- */
+
+/* The least number above 0. */
+#define LEAST ((double)REAL_MIN * (double)REAL_EPSILON)
+
+/* A cube whose map is the axes', times size, but for one entry. */
+static void spell_cube(body *b, double size, int entry, double other, double radius)
+{
+    memset(b, 0, sizeof *b);
+    b->kind = BOX;
+    for (int i = 0; i < DIM; i++) {
+        b->half[i] = 1;
+        b->pose.m[i * DIM + i] = (real)size;
+    }
+    if (entry >= 0) {
+        b->pose.m[entry] = (real)other;
+    }
+    bind(b);
+    b->shape.radius = (real)radius;
+}
+
+static void expect(const char *name, quad least, quad most)
+{
+    V(result) r;
+    sort = name;
+    nearly.lower = least;
+    nearly.upper = most;
+    assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+    hold("the bracket holds", &r, (quad)r.lower <= most && least <= (quad)r.upper, 0);
+}
+
+static void numbers_that_underflow(void **state)
+{
+    const int aside = DIM * (DIM - 1); /* what the first axis adds to the last coordinate */
+    (void)state;
+    memset(&found, 0, sizeof found);
+    spell_cube(&p.a, 2, aside, LEAST, 0); /* all but on top of each other, deeper by the least number */
+    spell_cube(&p.b, 2, -1, 0, 0);
+    p.b.pose.p[DIM - 1] = 4;
+    expect("an entry of the map", -(quad)LEAST, -(quad)LEAST);
+    spell_cube(&p.a, 1024, -1, 0, 0); /* apart by 64 of it */
+    spell_cube(&p.b, 1024, -1, 0, 0);
+    p.b.pose.m[0] = (real)(-128 * LEAST);
+    p.b.pose.m[1] = p.b.pose.m[DIM] = 1024;
+    p.b.pose.m[DIM + 1] = 0;
+    p.b.pose.p[0] = 2048;
+    p.b.pose.p[1] = 1536;
+    expect("an entry of the map, apart", 64 * (quad)LEAST, 64 * (quad)LEAST);
+    spell_cube(&p.a, 1, -1, 0, 0);
+    spell_cube(&p.b, 1, -1, 0, LEAST);
+    p.b.pose.p[DIM - 1] = 2;
+    expect("a radius", -(quad)LEAST, -(quad)LEAST);
+#if DIM == 3
+    for (int i = 0; i < 400; i++) { /* turned by an angle whose square is none */
+        const int wide = sizeof(real) == 8, bits_of = wide ? -538 : -75;
+        const double e = ldexp(1 + (i % 20) / 20.0, bits_of + i / 20 - 10);
+        spell_cube(&p.a, 1, -1, 0, 0);
+        spell_cube(&p.b, 1, 1, -e, 0);
+        p.b.pose.m[3] = (real)e;
+        p.b.pose.p[2] = (real)(2 - ldexp(70, wide ? -52 : -23));
+        find_truth(&nearly, &p.a, &p.b, 1);
+        assert_true(settle(&nearly, &best, &p.a, &p.b));
+        expect("a small angle", nearly.lower, nearly.upper);
+    }
+#endif
+    print_faults(&found, "boxes");
+    assert_int_equal(found.count, 0);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(depths_of_boxes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(depths_of_boxes), cmocka_unit_test(numbers_that_underflow)};
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,7 +40,7 @@ static int add_wall(lows *f, const zonotope *z, const pair_of_axes p[PAIRS_OF_AX
  * one length. 0: they are parallel, and there is no facet across them. */
 static int cross_parallel(const zonotope *z, int first, int second, pair_of_axes *p)
 {
-    const vec u = z->u[first], v = z->u[second], d = dot(u, v) < 0 ? add(v, u) : sub(v, u);
+    const vec u = z->u[first], v = z->u[second], d = unit_size(dot(u, v) < 0 ? add(v, u) : sub(v, u));
     real skew = 0;
     EACH(skew += size(u.c[i] * v.c[(i + 1) % 3]) + size(u.c[(i + 1) % 3] * v.c[i]));
     if (!(peak(d) > 0) || !(skew > 0)) return 0;
@@ -99,8 +99,9 @@ static int level_height(const zonotope *z, const difference *d, const shape *a, 
         const shape *s = k < DIM ? a : b;
         const real u = z->u[k].c[at], half = ((const box *)s->data)->half[k % DIM];
         if (f->along >> k & 1 ? u != 0 : u == 0) return 0;
+        whole &= !s->pose || is_whole(s->pose->m[DIM * at + k % DIM], u);
         if (u == 0) continue;
-        whole &= is_whole(half, z->e[k]) && (!s->pose || is_whole(s->pose->m[DIM * at + k % DIM], u));
+        whole &= is_whole(half, z->e[k]);
         thick |= z->e[k] > 0;
         *h = span_plus(*h, span_times((span){z->e[k], 0, 0}, (span){size(u), 0, 0}), 1);
     }
@@ -141,7 +142,8 @@ static int bound_level(const zonotope *z, const difference *d, const shape *a, c
     return 1;
 }
 
-/* How deep two boxes overlap, or that they touch. 0: that is not certain, or they are apart. */
+/* How deep two boxes overlap, or that they touch. 0: that is not certain, or they are apart. There is no simplex to be
+ * remembered: a cache stays as it is. */
 static APART int tell_boxes(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     zonotope z;
@@ -150,7 +152,7 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
     twin deep;
     difference *d = &q->d;
     if (d->a.asked != AS_BOX || d->b.asked != AS_BOX || !(g->radius < PLAIN)) return 0;
-    if (q->s.n <= DIM && dot(q->v, spare(&q->s)->w) > 0) return 0;
+    if (q->s.n <= DIM && dot(q->v, spare(&q->s)->w) > 0) return 0; /* apart, as their first corner shows */
     know_offset(d, a, b);
     if (!take_boxes(&z, d) || !find_lows(&z, &f)) return 0;
     const wall *low = lowest_wall(&z, &f, &deep);
@@ -158,7 +160,7 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
     real least = f.of[0].floor;
     for (int k = 1; k < f.n; k++) least = smaller(f.of[k].floor, least);
     const twin h = low->height;
-    real lower = -h.high - 2 * UNIT * size(h.high) - WALL_DOUBT * z.far, upper = -least;
+    real lower = below(-h.high, -h.low - WALL_DOUBT * z.far, 0), upper = -least;
     if (!(upper - lower <= 3 * UNIT * z.far)) return 0;
     if (!(upper < 0) && !bound_level(&z, d, a, b, &f, low, &lower, &upper)) return 0;
     q->normal = low->n;

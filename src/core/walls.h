@@ -72,7 +72,7 @@ static void see_wall(const zonotope *z, const pair_of_axes p[PAIRS_OF_AXES], int
     for (int k = 0; k < AXES; k++)
         if (f->t[k] * f->t[k] <= most * z->uu[k]) open += z->e[k] * size(f->t[k]);
     f->height = sum_of(up, rest - up * excess);
-    f->floor = f->height.high - 2 * UNIT * size(f->height.high) - (2 + 16 * UNIT) * open - WALL_DOUBT * z->far;
+    f->floor = below(f->height.high, f->height.low - (2 + 16 * UNIT) * open - WALL_DOUBT * z->far, 0);
 }
 
 /* ---- the facet's point above the origin ---- */
@@ -179,7 +179,7 @@ static real drop_of(const zonotope *z, const wall *f, vec p)
 }
 
 /* The point is as good as right under the origin, in shares of far. */
-#define BESIDE (8 * UNIT)
+#define BESIDE (2 * UNIT)
 
 #if DIM == 3
 /* Where only two axes lead to p, and it is right under the origin, its height is the facet's however n is turned. */

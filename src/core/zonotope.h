@@ -30,7 +30,7 @@ typedef struct pair_of_axes {
 static inline int take_axes(zonotope *z, int box_at, const body *k)
 {
     const box *of = k->data;
-    const real level = k->posed ? leveler(k->norm) : 1, least = (real)0x1p-10;
+    const real level = k->posed ? leveler(k->norm) : 1, least = (real)0.25;
     real reach = 0;
     int fair = 1;
     z->grain[box_at] = k->grain * (1 / level);
