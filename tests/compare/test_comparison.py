@@ -342,10 +342,10 @@ def test_who_dies_is_left_out_of_the_counting():
     assert counted["silent"] == counted["absurd"] == 4
 
 
-def test_one_huge_error_leaves_all_curves_to_be_seen(browser, few, tmp_path):
+def test_one_huge_error_leaves_all_curves_to_be_seen(browser, rows, tmp_path):
     """Ours falls by many powers of ten with its steps, and is not flattened by what another says."""
-    rows = [dict(row) for row in few]
-    row = next(r for r in rows if r.get("question") == "penetration" and r.get("library") == "libccd MPR")
+    rows = [dict(row) for row in rows if "state" not in row or asked(row)[::3] == ("penetration", "hulls of 8")]
+    row = next(r for r in rows if r.get("library") == "libccd MPR")
     row["max_error"] = 1e307
     path = tmp_path / "few.jsonl"
     path.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
