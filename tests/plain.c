@@ -421,7 +421,7 @@ static void done_is_not_rough(void **state)
         d.p.fine = 1;
         d.p.noise = 32 * UNIT * UNIT;
         d.p.whole = &q.d;
-        if (stroll(&q, &g) != INSIDE || first_surface(&d) != OPEN || deepen(&d) != STILL) {
+        if (stroll(&q, &g, HEADINGS, 0) != INSIDE || first_surface(&d) != OPEN || deepen(&d) != STILL) {
             continue;
         }
         for (int i = 0; i < d.p.facets; i++) {

@@ -84,11 +84,16 @@ static void one_by_one_or_in_runs(void **state)
             raise_two(&l, d);
             l.reach = 128;
         }
-        size_t best = farthest_of_few(&l, d, 0);
+        size_t best = farthest_of_few(&l, d, WARY);
         assert_true(best < l.count);
-        assert_true(farthest_in_runs(&l, d, 0) == best);
-        assert_true(farthest_in_runs(&l, d, 1) == best);
-        assert_true(farthest_of_few(&l, d, 1) == best);
+        assert_true(farthest_in_runs(&l, d, WARY) == best);
+        assert_true(farthest_in_runs(&l, d, CAREFUL) == best);
+        assert_true(farthest_of_few(&l, d, CAREFUL) == best);
+        size_t first = farthest_of_few(&l, d, HASTY);
+        for (size_t k = 0; k < l.count; k++) {
+            real here = dot(nth_of(&l, k), d), top = dot(nth_of(&l, first), d);
+            assert_true(k < first ? here < top : here <= top);
+        }
         for (size_t k = 0; k < l.count; k++) {
             assert_true(dot(nth_of(&l, k), d) <= dot(nth_of(&l, best), d) + margin_of(&l, d));
             if (kind == 1 && k != best && dot(nth_of(&l, k), d) == dot(nth_of(&l, best), d)) {
@@ -110,8 +115,8 @@ static void no_numbers(void **state)
         int at = below_any((int)l.count), axis_of = below_any(DIM);
         if (d.c[axis_of] == 0) d.c[axis_of] = 1;
         v[(size_t)at * l.step + (size_t)axis_of] = nones[i % 3];
-        assert_true(farthest_of_few(&l, d, 0) == l.count);
-        assert_true(farthest_in_runs(&l, d, 0) == l.count);
+        assert_true(farthest_of_few(&l, d, WARY) == l.count);
+        assert_true(farthest_in_runs(&l, d, WARY) == l.count);
     }
 }
 

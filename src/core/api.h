@@ -420,6 +420,23 @@ static int tell_closely(search *q, const shape *a, const shape *b, const goal *g
     return seen != NOTHING;
 }
 
+/* Walks. Where a corner that was not sought along v, with care, is out of the ordinary, they touch, or one is sought
+ * that way. */
+static inline enum end walk(search *q, const shape *a, const shape *b, const goal *g, result *r)
+{
+    int thin = is_thin(&q->d.a) || is_thin(&q->d.b), boxes = q->d.a.asked == AS_BOX && q->d.b.asked == AS_BOX;
+    enum end end = stroll(q, g, thin || q->s.n > 0 ? 0 : HEADINGS, g->sign_only && !thin && !boxes);
+    if (end != OPEN || !q->rough || q->steps >= g->max_steps) return end;
+    know_offset(&q->d, a, b);
+    q->told = !g->deep && tell_touch(q, a, b, r);
+    if (q->told) return STILL;
+    if (++q->steps >= g->max_steps) {
+        raise(q, q->way, spare(&q->s)->w);
+        return OPEN;
+    }
+    return ask_on(&q->d, q->v, spare(&q->s)) ? stroll(q, g, 0, 0) : FAULT;
+}
+
 /* The everyday way, of sets whose corners are known. How far it led; FAULT: nowhere. q->told: to the answer. */
 static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
@@ -432,8 +449,8 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     }
     q->told = g->deep && tell_boxes(q, a, b, g, r);
     if (q->told) return STILL;
-    enum end end = stroll(q, g);
-    q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
+    enum end end = walk(q, a, b, g, r);
+    if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
     int open = end == OPEN && q->steps < g->max_steps;
     if (!q->told && (end == STILL || open)) q->told = tell_closely(q, a, b, g, open, r);
     if (q->told && open) end = STILL;

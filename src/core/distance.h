@@ -52,6 +52,8 @@ typedef struct search {
     int repeated; /* because it stood in the simplex already */
     int stuck;    /* because it brought v no nearer, although it lies lower along v */
     real inside;  /* room in a full simplex, where it ended INSIDE */
+    vec way;      /* along which the everyday walk has sought that corner, */
+    int rough;    /* elsewhere than along v, or in haste */
     int weighed;  /* the walk has left the corners' weights here: */
     real weight[DIM + 1];
     int sidesteps; /* that brought v no nearer, to rounding */

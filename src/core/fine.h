@@ -439,7 +439,7 @@ static APART int tell_touch(search *q, const shape *a, const shape *b, result *r
         q->s.n = n;
         return 0;
     }
-    raise(q, q->v, q->s.slot[at[n]].w);
+    raise(q, q->way, q->s.slot[at[n]].w);
     q->borrowed &= ~(1u << at[n]);
     q->steps++;
     tell_meeting(q, a, b, 0, weight, r);

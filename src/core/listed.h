@@ -112,7 +112,7 @@ static APART int settle_listed(difference *d, const shape *a, const shape *b)
 
 /* The body's corner farthest along the frame's direction, of corners that are known to be numbers or are found to be,
  * and within their reach. */
-HOT int farthest_plain(const body *k, vec dir, int trusted, vec *x)
+HOT int farthest_plain(const body *k, vec dir, enum care care, vec *x)
 {
     if (k->posed) dir = pull(k->m, dir);
     if (dir.c[0] == 0 && !(peak(dir) > 0)) dir = axis(0, 1); /* as levelled has it */
@@ -125,17 +125,17 @@ HOT int farthest_plain(const body *k, vec dir, int trusted, vec *x)
         *x = load(l->v);
         return fits(k, *x);
     }
-    size_t best = farthest_among(l, dir, trusted);
+    size_t best = farthest_among(l, dir, care);
     if (best == l->count) return 0;
     *x = nth_of(l, best);
     return fits(k, *x);
 }
 
 /* The corner least along v. */
-HOT int ask_plainly(difference *d, vec v, int trusted, vertex *p)
+HOT int ask_plainly(difference *d, vec v, enum care care, vertex *p)
 {
     d->calls += 2;
-    if (!farthest_plain(&d->a, mul(v, -1), trusted, &p->x) || !farthest_plain(&d->b, v, trusted, &p->y)) return 0;
+    if (!farthest_plain(&d->a, mul(v, -1), care, &p->x) || !farthest_plain(&d->b, v, care, &p->y)) return 0;
     p->w = corner_of(d, p->x, p->y);
     return 1;
 }
@@ -144,14 +144,27 @@ HOT int ask_plainly(difference *d, vec v, int trusted, vertex *p)
 static int ask_anew(difference *d, vec v, vertex *p)
 {
     real reach[2];
-    if (!d->wild) return ask_plainly(d, v, 0, p);
+    if (!d->wild) return ask_plainly(d, v, WARY, p);
     if (!ask_first(d, v, p, reach)) return 0;
     p->w = corner_of(d, p->x, p->y);
     return 1;
 }
 
 /* The same, not for the first time. */
-static inline int ask_on(difference *d, vec v, vertex *p) { return d->wild ? ask(d, v, p) : ask_plainly(d, v, 1, p); }
+static inline int ask_on(difference *d, vec v, vertex *p)
+{
+    return d->wild ? ask(d, v, p) : ask_plainly(d, v, CAREFUL, p);
+}
+
+/* The same in haste, if that will do. */
+static inline int ask_for(difference *d, vec v, int hasty, vertex *p)
+{
+    if (!hasty) return ask_on(d, v, p);
+    return d->wild ? ask_with(d, v, HASTY, p) : ask_plainly(d, v, HASTY, p);
+}
+
+/* A point or a segment, which has no inside. */
+static inline int is_thin(const body *k) { return k->asked != AS_BOX && k->list.count < 3; }
 
 /* Of a long list some corners do at first: FEW, or up to four times as many. */
 #define FEW 16

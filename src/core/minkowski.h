@@ -103,14 +103,14 @@ static inline int call(difference *d, body *k, vec dir, vec *x, real *reach)
     return is_length(*reach) && fits(k, *x);
 }
 
-/* The same, not for the first time. */
-static inline int farthest(difference *d, body *k, vec v, vec *x)
+/* The same, not for the first time; of a list with that care. */
+static inline int seek(difference *d, body *k, vec v, enum care care, vec *x)
 {
     vec dir = direction_for(d, k, v);
     real reach;
     if (k->asked == BY_CALL) return call(d, k, dir, x, &reach);
     d->calls++;
-    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : nth_of(&k->list, farthest_among(&k->list, dir, 1));
+    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : nth_of(&k->list, farthest_among(&k->list, dir, care));
     return fits(k, *x);
 }
 
@@ -157,13 +157,17 @@ static vec remainder_of(const difference *d, vec x, vec x_low, vec y, vec y_low,
     return r;
 }
 
+static inline int farthest(difference *d, body *k, vec v, vec *x) { return seek(d, k, v, CAREFUL, x); }
+
 /* The corner of the difference that lies least along v. */
-static inline int ask(difference *d, vec v, vertex *p)
+static inline int ask_with(difference *d, vec v, enum care care, vertex *p)
 {
-    if (!farthest(d, &d->a, mul(v, -1), &p->x) || !farthest(d, &d->b, v, &p->y)) return 0;
+    if (!seek(d, &d->a, mul(v, -1), care, &p->x) || !seek(d, &d->b, v, care, &p->y)) return 0;
     p->w = corner_of(d, p->x, p->y);
     return 1;
 }
+
+static inline int ask(difference *d, vec v, vertex *p) { return ask_with(d, v, CAREFUL, p); }
 
 /* The same for the first time, from the supports, but for w; and the reaches that they tell. */
 static int ask_first(difference *d, vec v, vertex *p, real reach[2])

@@ -63,7 +63,7 @@ static int ask_along(depth *d, vec n, tip *t)
     d->q->steps++;
     difference *f = &d->q->d;
     int plain = !f->wild && f->a.asked != BY_CALL && f->b.asked != BY_CALL;
-    if (!(plain ? ask_plainly(f, v, 1, &c) : ask(f, v, &c))) return 0;
+    if (!(plain ? ask_plainly(f, v, CAREFUL, &c) : ask(f, v, &c))) return 0;
     raise(d->q, v, c.w);
     *t = tip_of(&c, d->g->exact);
     return 1;

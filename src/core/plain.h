@@ -43,19 +43,27 @@ static inline int step_plainly(search *q)
     return 1;
 }
 
-/* The corner in the spare slot, of that height times |v|, proves the cores to be apart by more than what is asked for.
- * Before there is a simplex vv says nothing; else it rarely looks so and is not. What falls short is not kept, so that
- * a goal out of reach changes nothing. */
-static inline int is_proven_beyond(search *q, real height, real beyond)
+/* The corner in the spare slot proves the cores to be apart by more than what is asked for.
+ * It rarely looks so and is not. What falls short is not kept, so that a goal out of reach changes nothing. */
+static inline int is_proven_beyond(search *q, real beyond)
 {
-    if (!(height > 0) || (q->s.n > 0 && !(height * height > beyond * beyond * q->vv))) return 0;
+    real height = dot(q->way, spare(&q->s)->w);
+    if (!(height > 0 && height * height > beyond * beyond * dot(q->way, q->way))) return 0;
     real lower = q->lower;
     vec normal = q->normal;
-    raise(q, q->v, spare(&q->s)->w);
+    raise(q, q->way, spare(&q->s)->w);
     if (q->lower > beyond) return 1;
     q->lower = lower;
     q->normal = normal;
     return 0;
+}
+
+/* The corner in the spare slot stands in the simplex already, or is no lower along v. */
+static inline int is_still(search *q)
+{
+    if (q->s.n == 0) return 0;
+    const vec w = spare(&q->s)->w;
+    return is_repeated(q) || !(q->vv - dot(q->v, w) > noise_along(q->v, w));
 }
 
 /* Most of what a step costs is asking. */
@@ -86,41 +94,69 @@ static APART void approach(search *q, const goal *g)
     }
 }
 
-/* Walks like descend, from the corner in the spare slot, and ends as it does, but for what was stuck. OPEN, with steps
- * left: something is out of the ordinary with that corner, which is not taken in and not counted. */
-static enum end stroll(search *q, const goal *g)
+/* How many of the first corners are asked for along another way than v. */
+#define HEADINGS (DIM - 1)
+
+/* Where the next corner is sought, of a point or an edge: v is the way to the nearest of very few points, and says less
+ * of where the bodies meet than the line of centres does. So what leads along the corner is taken off that, and half as
+ * much again; across an edge the two are halved. v itself, where the corner does not lie on the other side of the
+ * origin. */
+static inline vec heading(const search *q, vec centres)
+{
+    vec v = q->v;
+    real back = dot(centres, point(&q->s, 0));
+    if (q->s.n > 2 || !(back < 0)) return v;
+    if (q->s.n == 1) return sub(mul(centres, q->vv), mul(v, (real)1.5 * back));
+    vec e = sub(point(&q->s, 1), point(&q->s, 0)), across = sub(mul(centres, dot(e, e)), mul(e, dot(centres, e)));
+    return add(mul(v, leveler(peak(v))), mul(across, (real)0.75 * leveler(peak(across))));
+}
+
+/* Walks like descend, from the corner in the spare slot, and ends as it does, but for what was stuck. A corner that was
+ * sought elsewhere than along v, or in haste, and lies no lower along it, is sought along v, with care. OPEN, with
+ * steps left: something is out of the ordinary with that corner, which is not taken in and not counted. */
+static enum end stroll(search *q, const goal *g, int headings, int hasty)
 {
     int tolerant = g->abs_tol > 0 || g->rel_tol > 0;
     int fresh = q->s.n == 0;
-    int sought = g->beyond < 4;      /* in the frame nothing is farther apart */
+    int sought = g->beyond < 4; /* in the frame nothing is farther apart */
+    const vec centres = first_direction(&q->d);
+    q->way = q->v;
+    q->rough = 0;
     if (q->s.n > DIM) return INSIDE; /* the last query's simplex */
     for (;;) {
-        const vertex *last = spare(&q->s);
-        vec v = q->v;
-        real height = dot(v, last->w);
-        enum end end = OPEN;
+        const vec w = spare(&q->s)->w;
         q->pending = 1;
-        if (tolerant) raise(q, v, last->w);
-        if (sought && is_proven_beyond(q, height, g->beyond)) end = BEYOND;
-        else if (q->s.n > 0 && (is_repeated(q) || !(q->vv - height > noise_along(v, last->w))))
-            end = g->early && judge(q, g) == WITHIN ? WITHIN : STILL; /* of a simplex lent, which nobody has judged */
-        else if (!step_plainly(q)) return OPEN;
+        if (tolerant) raise(q, q->way, w);
+        if (sought && is_proven_beyond(q, g->beyond)) {
+            q->steps++;
+            return BEYOND;
+        }
+        const int still = is_still(q);
+        if (still && !q->rough) {
+            q->steps++;
+            raise(q, q->v, w);
+            return g->early && judge(q, g) == WITHIN ? WITHIN : STILL; /* of a simplex lent, which nobody has judged */
+        }
+        if (!still && !step_plainly(q)) return OPEN;
+        enum end end = OPEN;
         q->steps++;
         if (q->s.n > DIM) end = INSIDE;
-        else if (end == OPEN && g->early) end = judge(q, g);
-        if (end == BEYOND) return end;
+        else if (g->early && !still) end = judge(q, g);
         if (end != OPEN || q->steps >= g->max_steps) {
-            raise(q, v, last->w);
+            raise(q, q->way, w);
             return end;
         }
         if (fresh && is_long_way(&q->d)) {
-            raise(q, v, last->w);
+            raise(q, q->way, w);
             approach(q, g);
             if (q->s.n > DIM) return INSIDE;
             if (q->steps >= g->max_steps) return OPEN;
         }
         fresh = 0;
-        if (!ask_on(&q->d, q->v, spare(&q->s))) return FAULT;
+        if (still) q->repeated = headings = hasty = 0;
+        q->way = headings-- > 0 ? heading(q, centres) : q->v;
+        q->rough = hasty || !same(q->way, q->v);
+        if (!ask_for(&q->d, q->way, hasty, spare(&q->s))) return FAULT;
     }
 }
 

@@ -108,7 +108,11 @@ static inline size_t settle_summit(const list *l, vec d, summit s)
 
 /* ---- few points, and many ---- */
 
-HOT size_t farthest_of_few(const list *l, vec d, int trusted)
+/* How points are looked at: some may be no numbers; or all are; or then in haste, so that the first of the highest by
+ * rounded heights will do, which falls short by no more than the licence of 8. */
+enum care { WARY, CAREFUL, HASTY };
+
+HOT size_t farthest_of_few(const list *l, vec d, enum care care)
 {
     const real *x = l->v;
     summit s = {dot(load(x), d), -REAL_MAX, 0};
@@ -118,7 +122,8 @@ HOT size_t farthest_of_few(const list *l, vec d, int trusted)
         none += height * 0;
         s = see(s, height, i);
     }
-    return trusted || none == 0 ? settle_summit(l, d, s) : l->count;
+    if (care == HASTY) return s.at;
+    return care == CAREFUL || none == 0 ? settle_summit(l, d, s) : l->count;
 }
 
 /* A summit in each lane, of runs. */
@@ -165,7 +170,7 @@ static inline size_t first_of_height(const list *l, vec d, real height)
 /* As many runs as indices count; points beyond these are looked at one by one. */
 #define MOST_RUNS 0x7fffffffu
 
-HOT size_t farthest_in_runs(const list *l, vec d, int trusted)
+HOT size_t farthest_in_runs(const list *l, vec d, enum care care)
 {
     const size_t step = l->step, runs = l->count / RUN < MOST_RUNS ? l->count / RUN : MOST_RUNS;
     const real *x = l->v;
@@ -184,20 +189,20 @@ HOT size_t farthest_in_runs(const list *l, vec d, int trusted)
         none += height * 0;
         s = see(s, height, i);
     }
-    if (!trusted && !(none == 0)) return l->count;
+    if (care == WARY && !(none == 0)) return l->count;
     if (s.second == s.highest) s.at = first_of_height(l, d, s.highest);
     return settle_summit(l, d, s);
 }
 
-static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, 0); }
-static APART size_t farthest_of_many_trusted(const list *l, vec d) { return farthest_in_runs(l, d, 1); }
+static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, WARY); }
+static APART size_t farthest_of_many_numbers(const list *l, vec d) { return farthest_in_runs(l, d, CAREFUL); }
 
-/* Farthest of the points, the first among equals; unless they are trusted, their count if one is not finite. The sum of
- * heights times 0 is 0 only if every height, and with it every point, is finite. */
-static inline size_t farthest_among(const list *l, vec d, int trusted)
+/* Farthest of the points, the first among equals; of WARY looks their count if one is not finite. The sum of heights
+ * times 0 is 0 only if every height, and with it every point, is finite. Many are looked at with care at least. */
+static inline size_t farthest_among(const list *l, vec d, enum care care)
 {
-    if (l->count < MANY) return farthest_of_few(l, d, trusted);
-    return trusted ? farthest_of_many_trusted(l, d) : farthest_of_many(l, d);
+    if (l->count < MANY) return farthest_of_few(l, d, care);
+    return care == WARY ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
 }
 
 #endif

@@ -95,7 +95,7 @@ GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out
     const points *p = data;
     if (!p || !cloud(p)) return refuse(out);
     const list l = list_of_cloud(p);
-    size_t best = farthest_among(&l, load(dir), 0);
+    size_t best = farthest_among(&l, load(dir), WARY);
     if (best == p->count) return refuse(out);
     store(out, nth_of(&l, best));
     return p->reach;
@@ -128,7 +128,7 @@ static inline list list_of(const real (*v)[DIM], size_t n)
 static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])
 {
     list l = list_of(v, n);
-    size_t best = l.reach <= REAL_MAX ? farthest_of_few(&l, load(dir), 0) : n;
+    size_t best = l.reach <= REAL_MAX ? farthest_of_few(&l, load(dir), WARY) : n;
     if (best == n) return refuse(out);
     store(out, load(v[best]));
     return l.reach;
