@@ -345,6 +345,42 @@ static int look(search *q)
     return 1;
 }
 
+/* How many of the first corners are asked for along another way than v. */
+#define HEADINGS (DIM - 1)
+
+/* Where the next corner is sought, of a point or an edge: v is the way to the nearest of very few points, and says less
+ * of where the bodies meet than the line of centres does. So what leads along the corner is taken off that, and half as
+ * much again; across an edge the two are halved. v itself, where the corner does not lie on the other side of the
+ * origin. */
+static inline vec heading(const search *q, vec centres)
+{
+    vec v = q->v;
+    real back = dot(centres, point(&q->s, 0));
+    if (q->s.n > 2 || !(back < 0)) return v;
+    if (q->s.n == 1) return sub(mul(centres, q->vv), mul(v, (real)1.5 * back));
+    vec e = sub(point(&q->s, 1), point(&q->s, 0)), across = sub(mul(centres, dot(e, e)), mul(e, dot(centres, e)));
+    return add(mul(v, leveler(peak(v))), mul(across, (real)0.75 * leveler(peak(across))));
+}
+
+/* One of the first corners, sought elsewhere than along v; one that leads nowhere is left. */
+static enum end set_out(search *q, const goal *g)
+{
+    vec way = heading(q, first_direction(&q->d));
+    if (same(way, q->v) || q->steps >= g->max_steps) return OPEN;
+    if (!ask(&q->d, way, spare(&q->s))) return FAULT;
+    const vertex *last = spare(&q->s);
+    q->steps++;
+    q->pending = 1;
+    raise(q, way, last->w);
+    if (q->lower > g->beyond) return BEYOND;
+    q->pending = 0;
+    for (int i = 0; i < q->s.n; i++)
+        if (repeats(corner(&q->s, i), last)) return OPEN;
+    if (!(q->vv - dot(q->v, last->w) > noise_along(q->v, last->w)) || !advance(q)) return OPEN;
+    if (vanished(q)) return STILL;
+    return g->early ? judge(q, g) : OPEN;
+}
+
 /* Walks on from the corner in the spare slot, least along q->v. */
 static enum end descend(search *q, const goal *g)
 {
@@ -353,8 +389,10 @@ static enum end descend(search *q, const goal *g)
         q->inside = room_inside(q);
         return INSIDE;
     }
+    int headings = q->s.n == 0 && g->sign_only ? HEADINGS : 0; /* round bodies take many more steps to the rest */
     for (;;) {
         enum end end = consider(q, g);
+        for (; headings > 0 && end == OPEN; headings--) end = set_out(q, g);
         if (end != OPEN || q->steps >= g->max_steps) return end;
         if (!look(q)) return FAULT;
     }

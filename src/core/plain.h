@@ -94,23 +94,6 @@ static APART void approach(search *q, const goal *g)
     }
 }
 
-/* How many of the first corners are asked for along another way than v. */
-#define HEADINGS (DIM - 1)
-
-/* Where the next corner is sought, of a point or an edge: v is the way to the nearest of very few points, and says less
- * of where the bodies meet than the line of centres does. So what leads along the corner is taken off that, and half as
- * much again; across an edge the two are halved. v itself, where the corner does not lie on the other side of the
- * origin. */
-static inline vec heading(const search *q, vec centres)
-{
-    vec v = q->v;
-    real back = dot(centres, point(&q->s, 0));
-    if (q->s.n > 2 || !(back < 0)) return v;
-    if (q->s.n == 1) return sub(mul(centres, q->vv), mul(v, (real)1.5 * back));
-    vec e = sub(point(&q->s, 1), point(&q->s, 0)), across = sub(mul(centres, dot(e, e)), mul(e, dot(centres, e)));
-    return add(mul(v, leveler(peak(v))), mul(across, (real)0.75 * leveler(peak(across))));
-}
-
 /* Walks like descend, from the corner in the spare slot, and ends as it does, but for what was stuck. A corner that was
  * sought elsewhere than along v, or in haste, and lies no lower along it, is sought along v, with care. OPEN, with
  * steps left: something is out of the ordinary with that corner, which is not taken in and not counted. */
