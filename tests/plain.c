@@ -433,6 +433,64 @@ static void done_is_not_rough(void **state)
     assert_true(done > PAIRS / 100);
 }
 
+/* ---- where corners are sought ---- */
+
+#define CORNERS 16
+
+static real corners[2][CORNERS][DIM];
+static points clouds[2];
+
+/* Two hulls, a thousandth apart. */
+static void draw_near_hulls(void)
+{
+    result r;
+    for (int k = 0; k < 2; k++) {
+        shapes[k] = (shape){pub(support_points), &clouds[k], &poses[k], 0};
+        for (int i = 0; i < CORNERS; i++) {
+            for (int j = 0; j < DIM; j++) {
+                corners[k][i][j] = any_real(-1, 1);
+            }
+        }
+        clouds[k] = (points){.v = corners[k][0], .count = CORNERS};
+        clouds[k].reach = pub(points_reach)(&clouds[k]);
+        for (int i = 0; i < DIM; i++) {
+            poses[k].p[i] = k == 0 ? 0 : any_real(-4, 4);
+            for (int j = 0; j < DIM; j++) {
+                poses[k].m[DIM * i + j] = i == j;
+            }
+        }
+    }
+    assert_true(pub(penetration)(&shapes[0], &shapes[1], NULL, &r) >= 0);
+    for (int i = 0; i < DIM; i++) {
+        poses[1].p[i] -= (r.value - (real)1e-3) * r.normal[i];
+    }
+}
+
+/* How many support calls show that they are apart. */
+static long calls_to_apart(int headings)
+{
+    const goal g = {.abs_tol = -1, .sign_only = 1, .exact = 1, .max_steps = 256};
+    q.d.calls = 0;
+    assert_true(open_listed(&q, &shapes[0], &shapes[1], NULL));
+    assert_true(stroll(&q, &g, headings, 1) == BEYOND);
+    return q.d.calls;
+}
+
+static void headings_save_calls(void **state)
+{
+    long with = 0, without = 0;
+    (void)state;
+    state_of_draws = 9;
+    for (int k = 0; k < PAIRS / 10; k++) {
+        draw_near_hulls();
+        with += calls_to_apart(HEADINGS);
+        without += calls_to_apart(0);
+    }
+    printf("near hulls: %.2f calls, without headings %.2f\n", (double)with / (PAIRS / 10),
+           (double)without / (PAIRS / 10));
+    assert_true(with * 10 < without * 9);
+}
+
 /* ---- numbers that know how far they may be off ---- */
 
 static mpf_t truth_a, truth_b, truth_r, addend;
@@ -552,6 +610,7 @@ int main(void)
         cmocka_unit_test(square_to_corners_far_away),
         cmocka_unit_test(what_the_way_falls_short),
         cmocka_unit_test(done_is_not_rough),
+        cmocka_unit_test(headings_save_calls),
         cmocka_unit_test(spans_know_how_far_they_are_off),
         cmocka_unit_test(a_sign_is_certain),
         cmocka_unit_test(weights_have_digits),
