@@ -374,8 +374,6 @@ static enum end set_out(search *q, const goal *g)
     raise(q, way, last->w);
     if (q->lower > g->beyond) return BEYOND;
     q->pending = 0;
-    for (int i = 0; i < q->s.n; i++)
-        if (repeats(corner(&q->s, i), last)) return OPEN;
     if (!(q->vv - dot(q->v, last->w) > noise_along(q->v, last->w)) || !advance(q)) return OPEN;
     if (vanished(q)) return STILL;
     return g->early ? judge(q, g) : OPEN;
