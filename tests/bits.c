@@ -12,16 +12,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x82fa66e5b99e906b, 0xfac3d47305c17d23, 0x6732b0b40e63d108};
+static const uint64_t known[3] = {0x82fa66e5b99e906b, 0x77eff599ef11a7e6, 0x6732b0b40e63d108};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x4f66e5221ed8186a, 0x18dbb1121a515b95, 0x4271f34d0322d160};
+static const uint64_t known[3] = {0x4f66e5221ed8186a, 0x0f4f0485df2aacac, 0x4271f34d0322d160};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xa66a83b670612fc9, 0xe7011f09dcd3af7e, 0x440f3abf9a69f6cd};
+static const uint64_t known[3] = {0xa66a83b670612fc9, 0xcf3005e482c7edcd, 0x440f3abf9a69f6cd};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x37fcb7ddff597e26, 0xa6fe7fb8d781e1fe, 0x2c169e45b9eacc4f};
+static const uint64_t known[3] = {0x37fcb7ddff597e26, 0xb8a4daf85ba414a4, 0x2c169e45b9eacc4f};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

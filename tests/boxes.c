@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Two boxes: how deep, against the exact truth. Boxes of all sorts: in line or turned by next to nothing, flat, long,
- * one in the other, on one spot, touching, under maps that shear and mirror, of any unit. Most are told by their
- * facets, which shows in that no step was taken; how many of each sort is printed, and held to a share where it is to
- * be all of them. */
+/* Two boxes: how deep, and whether they meet, against the exact truth. Boxes of all sorts: in line or turned by next to
+ * nothing, flat, long, one in the other, on one spot, touching, near by, under maps that shear and mirror, of any unit.
+ * Most depths are told by the boxes' facets, which shows in that no step was taken; most signs by their axes, in two
+ * steps at most. How many of each sort is printed, and held to a share where it is to be all of them. */
 #include "faults.h"
 #include "pairs.h"
 #include "settle.h"
@@ -16,8 +16,8 @@
 
 #define BOX_PAIRS 1500 /* of each sort */
 
-enum turned { IN_LINE, SPUN, TILTED, YAWED, UNLIKE, CROSSED, TURNS };
-static const char *const turned_name[TURNS] = {"in line", "turned", "tilted", "yawed", "sheared", "crossed"};
+enum turned { IN_LINE, SPUN, TILTED, YAWED, UNLIKE, CROSSED, LOOSE, TURNS };
+static const char *const turned_name[TURNS] = {"in line", "turned", "tilted", "yawed", "sheared", "crossed", "loose"};
 
 enum placed { CONCENTRIC, WITHIN, AT_FACE, ON_GRID, ANYWHERE, PLACES };
 static const char *const placed_name[PLACES] = {"on one spot", "one in the other", "at a face", "on a grid",
@@ -100,6 +100,15 @@ static void turn_from(draws *d, double angle, int about)
     }
 }
 
+/* A map that is a turn, or an axis-to-axis one, only to so many digits, of another size at times. */
+static void loosen(draws *d, body *b)
+{
+    double by = below(d, 2) ? 1 : between(d, 0.4, 3), off = magnitude(d, -14, -3);
+    for (int i = 0; i < DIM * DIM; i++) {
+        b->pose.m[i] = (real)(by * ((double)b->pose.m[i] + off * between(d, -1, 1)));
+    }
+}
+
 static void draw_maps(draws *d, enum turned how)
 {
     int about = below(d, DIM);
@@ -124,6 +133,13 @@ static void draw_maps(draws *d, enum turned how)
         if (below(d, 2)) {
             memcpy(p.b.pose.m, p.a.pose.m, sizeof p.b.pose.m);
         }
+        break;
+    case LOOSE:
+        if (below(d, 2)) {
+            turn(d, &p.b, 100);
+        }
+        loosen(d, &p.a);
+        loosen(d, &p.b);
         break;
     default:
         break;
@@ -357,6 +373,100 @@ static void depths_of_boxes(void **state)
     assert_int_equal(found.count, 0);
 }
 
+/* ---- whether they meet ---- */
+
+/* Apart or into each other by so much, where they are nearest. */
+static void bring_near(draws *d)
+{
+    double n[DIM], gap = magnitude(d, -17, 0) * (below(d, 2) ? 1 : -1);
+    V(result) r;
+    assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (double)r.normal[i];
+    }
+    move(&p.b, n, gap - (double)r.value);
+    bind_pair(&p);
+}
+
+static quad between_points(const V(result) * r)
+{
+    quad gap[DIM];
+    for (int i = 0; i < DIM; i++) {
+        gap[i] = (quad)r->point_a[i] - (quad)r->point_b[i];
+    }
+    return norm(gap);
+}
+
+/* Rounding hides nothing of it, and no radius. */
+static int is_clear(void)
+{
+    quad off = nearly.lower > 0 ? nearly.lower : -nearly.upper;
+    return in_u(off) > 256 && p.a.shape.radius == 0 && p.b.shape.radius == 0;
+}
+
+/* Whether it was told by the axes: in two steps at most. */
+static int check_sign(const V(result) * r)
+{
+    const quad most = (quad)(POINT_ERROR * U * (scale() + far_out()));
+    quad n[DIM], along, off_a, off_b, off, above;
+    int by_axes;
+    hold("the bracket holds", r, (quad)r->lower <= nearly.upper && nearly.lower <= (quad)r->upper,
+         in_u(quad_abs(off_truth((quad)r->lower)) + quad_abs(off_truth((quad)r->upper))));
+    if (!(scale() * U >= (double)REAL_MIN)) {
+        return 0;
+    }
+    hold("the sign is told", r, nearly.lower > 0 ? r->lower > 0 : r->upper <= 0, in_u(nearly.lower));
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)r->normal[i];
+    }
+    hold("the normal is unit", r, quad_abs(norm(n) - 1) <= (quad)(UNIT_ERROR * U), (double)norm(n) - 1);
+    along = -along_normal(&p.a, r->normal, 1) - along_normal(&p.b, r->normal, -1);
+    hold("the normal realises lower", r, in_u((quad)r->lower - along) <= (double)UNIT_ERROR,
+         in_u((quad)r->lower - along));
+    off_a = stands_off(&p.a, r->point_a);
+    off_b = stands_off(&p.b, r->point_b);
+    off = off_a > off_b ? off_a : off_b;
+    /* what the walk tells of an overlap is no better than its bracket, and as good as its maps */
+    by_axes = r->steps <= 2 && sort != turned_name[UNLIKE];
+    off -= by_axes ? 0 : positive((quad)fmin(0, (double)r->upper) - (quad)r->lower);
+    hold("the points are in their boxes", r, off <= most, in_u(off));
+    above = between_points(r) - positive((quad)r->upper);
+    hold("the points are within upper", r, !by_axes || above <= (r->upper > 0 ? most : 0), in_u(above));
+    return r->steps <= 2;
+}
+
+static void signs_of_boxes(void **state)
+{
+    (void)state;
+    memset(&found, 0, sizeof found);
+    for (int how = 0; how < TURNS; how++) {
+        for (int where = 0; where < PLACES; where++) {
+            long told[2] = {0, 0}, all[2] = {0, 0};
+            sort = turned_name[how];
+            for (at = 0; at < BOX_PAIRS / PLACES; at++) {
+                draws d = draws_from(2, (uint64_t)(how * PLACES + where), (uint64_t)at);
+                V(result) r;
+                memset(&r, 0, sizeof r);
+                draw_boxes(&d, (enum turned)how, (enum placed)where);
+                if (below(&d, 2)) {
+                    bring_near(&d);
+                }
+                find_truth(&nearly, &p.a, &p.b, 1);
+                assert_true(settle(&nearly, &best, &p.a, &p.b));
+                assert_true(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+                told[nearly.lower > 0] += check_sign(&r) && is_clear();
+                all[nearly.lower > 0] += is_clear();
+            }
+            print_message("%-8s %-16s: of %4ld that meet %4ld told by their axes, of %4ld apart %4ld\n",
+                          turned_name[how], placed_name[where], all[0], told[0], all[1], told[1]);
+            const int share = how == UNLIKE ? 0 : how == LOOSE ? 6 : 8;
+            assert_true(10 * told[0] >= share * all[0] && 10 * told[1] >= share * all[1]);
+        }
+    }
+    print_faults(&found, "signs of boxes");
+    assert_int_equal(found.count, 0);
+}
+
 /* ---- numbers that underflow on the way ---- */
 
 /* The least number above 0. */
@@ -428,7 +538,8 @@ static void numbers_that_underflow(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(depths_of_boxes), cmocka_unit_test(numbers_that_underflow)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(depths_of_boxes), cmocka_unit_test(signs_of_boxes),
+                                       cmocka_unit_test(numbers_that_underflow)};
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

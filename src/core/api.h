@@ -4,6 +4,7 @@
 #define GJK_CORE_API_H
 
 #include "answer.h"
+#include "axes.h"
 #include "boxes.h"
 #include "fine.h"
 #include "intersect.h"
@@ -440,14 +441,18 @@ static inline enum end walk(search *q, const shape *a, const shape *b, const goa
 /* The everyday way, of sets whose corners are known. How far it led; FAULT: nowhere. q->told: to the answer. */
 static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
+    const int by_axes = g->sign_only && are_boxes(a, b);
     q->told = q->d.calls = 0;
-    if (o->tight || !(o->slack == 0) || !open_listed(q, a, b, o->cache)) return FAULT;
+    if (o->tight || !(o->slack == 0) || !open_listed(q, a, b, by_axes ? NULL : o->cache)) return FAULT;
     goal own;
     if (!is_scale_free(g)) {
         own = scaled(g, q->d.scale);
         g = &own;
     }
-    q->told = g->deep && tell_boxes(q, a, b, g, r);
+    if (by_axes) {
+        q->told = tell_by_axes(q, a, b, g, r);
+        if (!q->told && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
+    } else q->told = g->deep && tell_boxes(q, a, b, g, r);
     if (q->told) return STILL;
     enum end end = walk(q, a, b, g, r);
     if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);

@@ -164,8 +164,7 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
     if (!(upper - lower <= 3 * UNIT * z.far)) return 0;
     if (!(upper < 0) && !bound_level(&z, d, a, b, &f, low, &lower, &upper)) return 0;
     q->normal = low->n;
-    EACH(x.c[i] = low->s[i] * (z.e[i] * (d->a.grain / z.grain[0]));
-         y.c[i] = -low->s[DIM + i] * (z.e[DIM + i] * (d->b.grain / z.grain[1])));
+    EACH(x.c[i] = low->s[i] * (z.e[i] * z.level[0]); y.c[i] = -low->s[DIM + i] * (z.e[DIM + i] * z.level[1]));
     bracket(r, d, lower, upper, a, b);
     twin value = sum_of(-deep.high, -g->radius);
     r->value = (value.high + (value.low - deep.low)) * d->unscale;

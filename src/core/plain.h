@@ -306,11 +306,17 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
     return 1;
 }
 
-/* Apart, as the corner in the spare slot proves; v, for the next query, is made of the others. */
-static void tell_apart(search *q, const shape *a, const shape *b, result *r)
+/* Apart, as the corner in the spare slot proves. */
+static inline void spell_apart(const search *q, const shape *a, const shape *b, result *r)
 {
     closest p = last_of(q);
     spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, r);
+}
+
+/* The same of a walk; v, for the next query, is made of the other corners. */
+static void tell_apart(search *q, const shape *a, const shape *b, result *r)
+{
+    spell_apart(q, a, b, r);
     if (!(r->lower > 0) && q->s.n == 0) step_plainly(q);
     q->pending = q->s.n == 0;
 }

@@ -298,11 +298,12 @@ static inline int are_corners_short(const simplex *s)
     return r;
 }
 
-/* So is the way between the positions. */
-static inline int is_way_short(const difference *d)
+/* So is the way between the positions, which came to the frame whole, with nothing rounded off. */
+static inline int is_way_short(const difference *d, const shape *a, const shape *b)
 {
+    const vec c = offset(a->pose, b->pose), low = offset_low(a->pose, b->pose);
     int r = 1;
-    EACH(r &= is_short(d->c.c[i], 2 * SHORT, 1) & (d->c_low.c[i] == 0));
+    EACH(r &= is_short(d->c.c[i], 2 * SHORT, 1) & is_whole(c.c[i], d->c.c[i]) & (low.c[i] == 0));
     return r;
 }
 
@@ -347,6 +348,17 @@ static int weigh_plainly(const simplex *s, real weight[DIM + 1])
 #endif
 }
 
+/* corner_of places the simplex's corners without rounding, for certain. */
+static int are_corners_whole(const difference *d, const simplex *s, const shape *a, const shape *b)
+{
+    if (!is_way_short(d, a, b)) return 0;
+    if (!are_points_short(&d->a, s, offsetof(vertex, x)) || !are_points_short(&d->b, s, offsetof(vertex, y))) return 0;
+    if (!is_map_short(&d->a) || !is_map_short(&d->b)) return 0;
+    for (int i = 0; i < s->n && d->wild; i++)
+        if (!is_map_whole(&d->a, a, corner(s, i)->x) || !is_map_whole(&d->b, b, corner(s, i)->y)) return 0;
+    return 1;
+}
+
 /* Whether the simplex, of corners as corner_of places them, holds the origin, if that can be told in plain numbers.
  * Then it keeps the corners that carry it, with their weights. */
 static int holds_origin_plainly(const difference *d, simplex *s, const shape *a, const shape *b, real weight[DIM + 1])
@@ -354,11 +366,7 @@ static int holds_origin_plainly(const difference *d, simplex *s, const shape *a,
     real share[DIM + 1];
     int low = 0, high = 0;
     unsigned mask = 0;
-    if (!are_corners_short(s) || !weigh_plainly(s, share) || !is_way_short(d) || !is_way_whole(d, a, b)) return 0;
-    if (!are_points_short(&d->a, s, offsetof(vertex, x)) || !are_points_short(&d->b, s, offsetof(vertex, y))) return 0;
-    if (!is_map_short(&d->a) || !is_map_short(&d->b)) return 0;
-    for (int i = 0; i < s->n && d->wild; i++)
-        if (!is_map_whole(&d->a, a, corner(s, i)->x) || !is_map_whole(&d->b, b, corner(s, i)->y)) return 0;
+    if (!are_corners_short(s) || !weigh_plainly(s, share) || !are_corners_whole(d, s, a, b)) return 0;
     for (int i = 0; i < s->n; i++) {
         low |= share[i] < 0;
         high |= share[i] > 0;

@@ -14,7 +14,7 @@
 typedef struct zonotope {
     vec u[AXES]; /* each box's map has a norm from 1 to 2 */
     real e[AXES], uu[AXES];
-    real grain[2]; /* of the halves: from a box's own unit to e */
+    real level[2]; /* the power of two by which a box's axes are more than its map's, and its halves less */
     vec c, c_low;
     real far; /* bounds the sum of the e_k |u_k| and |c| */
 } zonotope;
@@ -26,24 +26,32 @@ typedef struct pair_of_axes {
     real size; /* bounds the product of the axes' lengths */
 } pair_of_axes;
 
-/* The axes of one box. 0: they are of too different lengths, or the box is too small beside the other to tell. */
-static inline int take_axes(zonotope *z, int box_at, const body *k)
+/* The axes of one box, and how far it reaches along them. */
+static inline void take_axes(zonotope *z, int box_at, const body *k)
 {
     const box *of = k->data;
-    const real level = k->posed ? leveler(k->norm) : 1, least = (real)0.25;
+    const real level = k->posed ? leveler(k->norm) : 1, grain = k->grain * (1 / level);
+    vec *u = z->u + DIM * box_at;
+    real *e = z->e + DIM * box_at, *uu = z->uu + DIM * box_at;
+    z->level[box_at] = level;
+    for (int j = 0; j < DIM; j++) {
+        if (k->posed) {
+            EACH(u[j].c[i] = k->m[DIM * i + j] * level);
+        } else u[j] = axis(j, 1);
+        e[j] = of->half[j] * grain;
+        uu[j] = dot(u[j], u[j]);
+    }
+}
+
+/* 0: its axes are of too different lengths, or the box is too small beside the other to tell. */
+static inline int is_fair(const zonotope *z, int box_at)
+{
+    const real *e = z->e + DIM * box_at, *uu = z->uu + DIM * box_at, least = (real)0.25;
     real reach = 0;
     int fair = 1;
-    z->grain[box_at] = k->grain * (1 / level);
     for (int j = 0; j < DIM; j++) {
-        const int at = DIM * box_at + j;
-        if (k->posed) {
-            EACH(z->u[at].c[i] = k->m[DIM * i + j] * level);
-        } else z->u[at] = axis(j, 1);
-        z->e[at] = of->half[j] * z->grain[box_at];
-        z->uu[at] = dot(z->u[at], z->u[at]);
-        fair &= z->uu[at] > least;
-        reach += z->e[at];
-        z->far += z->e[at] * ((z->uu[at] + 1) / 2);
+        fair &= uu[j] > least;
+        reach += e[j];
     }
     return fair && reach > UNIT;
 }
@@ -53,7 +61,10 @@ static inline int take_boxes(zonotope *z, const difference *d)
     z->c = d->c;
     z->c_low = d->c_low;
     z->far = spread(d->c);
-    return take_axes(z, 0, &d->a) & take_axes(z, 1, &d->b);
+    take_axes(z, 0, &d->a);
+    take_axes(z, 1, &d->b);
+    for (int k = 0; k < AXES; k++) z->far += z->e[k] * ((z->uu[k] + 1) / 2);
+    return is_fair(z, 0) & is_fair(z, 1);
 }
 
 /* ---- the facets, in plain numbers ---- */
