@@ -496,6 +496,16 @@ static void expect(const char *name, quad least, quad most)
     nearly.upper = most;
     assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
     hold("the bracket holds", &r, (quad)r.lower <= most && least <= (quad)r.upper, 0);
+    assert_true(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+    hold("intersect's bracket holds", &r, (quad)r.lower <= most && least <= (quad)r.upper, 0);
+}
+
+/* The same of the pair as it stands, by exact truth. */
+static void expect_truth(const char *name)
+{
+    find_truth(&nearly, &p.a, &p.b, 1);
+    assert_true(settle(&nearly, &best, &p.a, &p.b));
+    expect(name, nearly.lower, nearly.upper);
 }
 
 static void numbers_that_underflow(void **state)
@@ -527,11 +537,55 @@ static void numbers_that_underflow(void **state)
         spell_cube(&p.b, 1, 1, -e, 0);
         p.b.pose.m[3] = (real)e;
         p.b.pose.p[2] = (real)(2 - ldexp(70, wide ? -52 : -23));
-        find_truth(&nearly, &p.a, &p.b, 1);
-        assert_true(settle(&nearly, &best, &p.a, &p.b));
-        expect("a small angle", nearly.lower, nearly.upper);
+        expect_truth("a small angle");
     }
 #endif
+    for (int i = 3; i < 12; i++) { /* a rod of subnormal halves under a huge map, beside another of everyday numbers */
+        const double size = ldexp(LEAST, sizeof(real) == 8 ? 1000 : 100);
+        spell_cube(&p.a, size / LEAST, -1, 0, 0);
+        spell_cube(&p.b, 1, -1, 0, 0);
+        for (int k = 0; k < DIM; k++) {
+            const int log_of_half = k == 0 ? i : 2;
+            p.a.half[k] = (real)ldexp(LEAST, log_of_half);
+            p.b.half[k] = (real)ldexp(size, log_of_half);
+            p.b.pose.p[k] = (real)(k == 0 ? ldexp(1.5 * size, i) : 9 * size);
+        }
+        bind(&p.a);
+        bind(&p.b);
+        expect("a huge map", (quad)size, (quad)(1.5 * size));
+    }
+    print_faults(&found, "boxes");
+    assert_int_equal(found.count, 0);
+}
+
+/* ---- axes that are short by some roundings ---- */
+
+/* A box of a rotation times that, and a point in it: which of the two is a's is told. */
+static void spell_short(double share, int point_first)
+{
+    body *of = point_first ? &p.b : &p.a, *point = point_first ? &p.a : &p.b;
+    spell_cube(of, share, -1, 0, 0);
+    spell_cube(point, 1, -1, 0, 0);
+    of->pose.m[0] = of->pose.m[DIM + 1] = (real)(0.6 * share);
+    of->pose.m[DIM] = (real)(0.8 * share);
+    of->pose.m[1] = -of->pose.m[DIM];
+    for (int i = 0; i < DIM; i++) {
+        point->half[i] = 0;
+        of->pose.p[i] = (real)(0.05 * (i + 1));
+    }
+    bind(point);
+}
+
+static void axes_short_by_roundings(void **state)
+{
+    (void)state;
+    memset(&found, 0, sizeof found);
+    for (int i = 500; i <= 2000; i += 50) {
+        for (int first = 0; first < 2; first++) {
+            spell_short(1 - i * (double)U, first);
+            expect_truth("short axes");
+        }
+    }
     print_faults(&found, "boxes");
     assert_int_equal(found.count, 0);
 }
@@ -539,7 +593,8 @@ static void numbers_that_underflow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(depths_of_boxes), cmocka_unit_test(signs_of_boxes),
-                                       cmocka_unit_test(numbers_that_underflow)};
+                                       cmocka_unit_test(numbers_that_underflow),
+                                       cmocka_unit_test(axes_short_by_roundings)};
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -422,20 +422,24 @@ static int tell_closely(search *q, const shape *a, const shape *b, const goal *g
 }
 
 /* Walks. Where a corner that was not sought along v, with care, is out of the ordinary, they touch, or one is sought
- * that way. */
+ * that way: at most once, since no other is rough from there on. */
 static inline enum end walk(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     int thin = is_thin(&q->d.a) || is_thin(&q->d.b), boxes = q->d.a.asked == AS_BOX && q->d.b.asked == AS_BOX;
-    enum end end = stroll(q, g, thin || q->s.n > 0 ? 0 : HEADINGS, g->sign_only && !thin && !boxes);
-    if (end != OPEN || !q->rough || q->steps >= g->max_steps) return end;
-    know_offset(&q->d, a, b);
-    q->told = !g->deep && tell_touch(q, a, b, r);
-    if (q->told) return STILL;
-    if (++q->steps >= g->max_steps) {
-        raise(q, q->way, spare(&q->s)->w);
-        return OPEN;
+    int headings = thin || q->s.n > 0 ? 0 : HEADINGS, hasty = g->sign_only && !thin && !boxes;
+    for (;;) {
+        enum end end = stroll(q, g, headings, hasty);
+        if (end != OPEN || !q->rough || q->steps >= g->max_steps) return end;
+        know_offset(&q->d, a, b);
+        q->told = !g->deep && tell_touch(q, a, b, r);
+        if (q->told) return STILL;
+        if (++q->steps >= g->max_steps) {
+            raise(q, q->way, spare(&q->s)->w);
+            return OPEN;
+        }
+        headings = hasty = 0;
+        if (!ask_on(&q->d, q->v, spare(&q->s))) return FAULT;
     }
-    return ask_on(&q->d, q->v, spare(&q->s)) ? stroll(q, g, 0, 0) : FAULT;
 }
 
 /* The everyday way, of sets whose corners are known. How far it led; FAULT: nowhere. q->told: to the answer. */

@@ -306,9 +306,17 @@ static inline int are_boxes(const shape *a, const shape *b)
 }
 
 /* The walk takes up the last query's simplex after all. 0: something is wrong. */
-static int reopen_after_axes(search *q, const shape *a, const shape *b, const cache *k)
+static APART int reopen_after_axes(search *q, const shape *a, const shape *b, const cache *k)
 {
-    return !lends(k, a, b) || open_listed(q, a, b, k);
+    const int steps = q->steps;
+    if (!lends(k, a, b)) return 1;
+    blank(q);
+    q->steps = steps;
+    if (reopen_listed(q, k)) return 1;
+    blank(q);
+    q->steps = steps;
+    q->v = first_direction(&q->d);
+    return ask_anew(&q->d, q->v, spare(&q->s));
 }
 
 #endif

@@ -110,7 +110,7 @@ static inline int seek(difference *d, body *k, vec v, enum care care, vec *x)
     real reach;
     if (k->asked == BY_CALL) return call(d, k, dir, x, &reach);
     d->calls++;
-    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : nth_of(&k->list, farthest_among(&k->list, dir, care));
+    *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : nth_of(&k->list, farthest_apart(&k->list, dir, care));
     return fits(k, *x);
 }
 

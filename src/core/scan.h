@@ -199,10 +199,13 @@ static APART size_t farthest_of_many_numbers(const list *l, vec d) { return fart
 
 /* Farthest of the points, the first among equals; of WARY looks their count if one is not finite. The sum of heights
  * times 0 is 0 only if every height, and with it every point, is finite. Many are looked at with care at least. */
-static inline size_t farthest_among(const list *l, vec d, enum care care)
+HOT size_t farthest_among(const list *l, vec d, enum care care)
 {
     if (l->count < MANY) return farthest_of_few(l, d, care);
     return care == WARY ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
 }
+
+/* The same, where it is one call among many. */
+static APART size_t farthest_apart(const list *l, vec d, enum care care) { return farthest_among(l, d, care); }
 
 #endif

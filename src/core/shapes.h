@@ -95,7 +95,7 @@ GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out
     const points *p = data;
     if (!p || !cloud(p)) return refuse(out);
     const list l = list_of_cloud(p);
-    size_t best = farthest_among(&l, load(dir), WARY);
+    size_t best = farthest_apart(&l, load(dir), WARY);
     if (best == p->count) return refuse(out);
     store(out, nth_of(&l, best));
     return p->reach;

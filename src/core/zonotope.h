@@ -30,7 +30,7 @@ typedef struct pair_of_axes {
 static inline void take_axes(zonotope *z, int box_at, const body *k)
 {
     const box *of = k->data;
-    const real level = k->posed ? leveler(k->norm) : 1, grain = k->grain * (1 / level);
+    const real level = k->posed ? leveler(k->norm) : 1;
     vec *u = z->u + DIM * box_at;
     real *e = z->e + DIM * box_at, *uu = z->uu + DIM * box_at;
     z->level[box_at] = level;
@@ -38,7 +38,7 @@ static inline void take_axes(zonotope *z, int box_at, const body *k)
         if (k->posed) {
             EACH(u[j].c[i] = k->m[DIM * i + j] * level);
         } else u[j] = axis(j, 1);
-        e[j] = of->half[j] * grain;
+        e[j] = of->half[j] * k->grain * (1 / level); /* in this order nothing overflows */
         uu[j] = dot(u[j], u[j]);
     }
 }
