@@ -162,8 +162,8 @@ static int unanswered(const search *q, const result *r, const options *o, const 
     if (g->sign_only && r->lower > 0) return 0;
     if (q->lower <= near + margin && upper >= near - margin) return 1;
     if (g->deep && q->lower <= margin) return 1;
-    if (g->sign_only) return 0;
     if (r->upper <= 0 && !g->deep) return q->s.n > DIM && peak(blend(&q->s, weight, offsetof(vertex, w), 1)) > 8 * UNIT;
+    if (g->sign_only) return 0;
     return o->tight || q->stuck || coarse(q, upper);
 }
 
