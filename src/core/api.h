@@ -348,6 +348,14 @@ static int settle_near(search *q, const shape *a, const shape *b, const goal *g,
     return seen != NOTHING;
 }
 
+/* The point of both is one only as far as the weights of the full simplex meet the origin, which those of a thin one
+ * miss: the bracket is to be as wide as that. */
+static real cover_point(const search *q, const real weight[], real upper)
+{
+    real off = length(blend(&q->s, weight, offsetof(vertex, w), 1)) + q->d.doubt;
+    return smaller(larger(upper, q->lower + off * (1 + 8 * UNIT)), upper / 1024);
+}
+
 /* The cores' search from where the walk stands, its bracket with the radii taken off, and what a finish adds. FAULT: a
  * support's answer was none, or the bounds cross. */
 static APART enum end solve(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
@@ -363,6 +371,7 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
     int settled = tried && settle_near(q, a, b, g, weight, &upper, r);
     if (q->told) return STILL;
     if (end == FAULT || (probed && !settled && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
+    if (g->sign_only && q->s.n > DIM && upper < 0) upper = cover_point(q, weight, upper);
     bracket(r, &q->d, q->lower, upper, a, b);
     if (still && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
     if (further != STILL && !is_plumbed(q, g, still)) answer(q, a, b, g, upper, weight, r);
