@@ -201,8 +201,6 @@ static inline vec foremost_of_a(const gauge *k, int at)
 }
 
 #if DIM == 3
-static const unsigned char next_axis[5] = {0, 1, 2, 0, 1};
-
 /* The same along the normal of each pair of axes, one of each box, times its length, whose square is ll. */
 static inline void reach_across(const gauge *k, real h[9], real ll[9])
 {

@@ -103,11 +103,13 @@ static inline int find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
 static const unsigned char first_of[PAIRS_OF_AXES] = {1, 2, 0, 4, 5, 3, 0, 0, 0, 1, 1, 1, 2, 2, 2};
 static const unsigned char second_of[PAIRS_OF_AXES] = {2, 0, 1, 5, 3, 4, 3, 4, 5, 3, 4, 5, 3, 4, 5};
 
+/* Axis i + k of a box, round and round. */
+static const unsigned char next_axis[5] = {0, 1, 2, 0, 1};
+
 /* 0: one of them shows the boxes to be apart; those across axes of one box do as a rule. Each product of three axes is
  * part of several heights. */
 static inline int find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
 {
-    static const unsigned char next[5] = {0, 1, 2, 0, 1};
     real across[2][3][3]; /* of the face normal m of a box with axis k of the other */
     for (int b = 0; b < 2; b++) {
         const vec *own = z->u + 3 * b, *other = z->u + 3 - 3 * b;
@@ -124,14 +126,14 @@ static inline int find_pairs(const zonotope *z, pair_of_axes p[PAIRS_OF_AXES])
             q->l = n[m];
             q->ll = dot(n[m], n[m]);
             q->height = h - size(dot(n[m], z->c));
-            q->size = (z->uu[3 * b + next[m + 1]] + z->uu[3 * b + next[m + 2]]) / 2;
+            q->size = (z->uu[3 * b + next_axis[m + 1]] + z->uu[3 * b + next_axis[m + 2]]) / 2;
             if (is_outside(z, q)) return 0;
         }
     }
     for (int i = 0; i < 3; i++) {
-        const int i1 = next[i + 1], i2 = next[i + 2];
+        const int i1 = next_axis[i + 1], i2 = next_axis[i + 2];
         for (int j = 0; j < 3; j++) {
-            const int j1 = next[j + 1], j2 = next[j + 2];
+            const int j1 = next_axis[j + 1], j2 = next_axis[j + 2];
             pair_of_axes *q = &p[6 + 3 * i + j];
             q->l = cross(z->u[i], z->u[3 + j]);
             q->ll = dot(q->l, q->l);
