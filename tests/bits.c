@@ -12,16 +12,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x82fa66e5b99e906b, 0x77eff599ef11a7e6, 0x6732b0b40e63d108};
+static const uint64_t known[3] = {0x04c3da83d7ea5ff7, 0x5392912d8795876a, 0x773e64c6f05e6d21};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x4f66e5221ed8186a, 0x0f4f0485df2aacac, 0x4271f34d0322d160};
+static const uint64_t known[3] = {0xb49653603c657d63, 0xddbbb7a652cfad04, 0x2cf8eae3c8122f21};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xa66a83b670612fc9, 0xcf3005e482c7edcd, 0x440f3abf9a69f6cd};
+static const uint64_t known[3] = {0x4ccb3c4b2fb959d2, 0x8ccee13be5216b3c, 0x51e4cc029cd00ba3};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x37fcb7ddff597e26, 0xb8a4daf85ba414a4, 0x2c169e45b9eacc4f};
+static const uint64_t known[3] = {0x31cf1196cc064896, 0x0ae0cdf41f0c3bbe, 0x66e68bf852163f64};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

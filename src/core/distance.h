@@ -65,8 +65,12 @@ typedef struct search {
     int kept;            /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
 } search;
 
-/* |v| is below half a rounding of the frame, which is of size 1 to 2: it has no direction. */
-static int vanished(const search *q) { return !(q->vv > UNIT * UNIT / 4); }
+/* |v| is below a sixteenth of a rounding of the frame, which is of size 1 to 2: it has no direction. Not as much as
+ * half a rounding: the frame is as large as the reaches say, and those of couples are several times what the bodies
+ * are. */
+static int is_faded(real vv) { return !(vv > UNIT * UNIT / 256); }
+
+static int vanished(const search *q) { return is_faded(q->vv); }
 
 /* Room in the full simplex, by its weights; where these show none, by itself. */
 static real room_inside(const search *q)
@@ -165,7 +169,7 @@ static int sharpen(search *q, const real weight[DIM + 1])
     vec low;
     vec high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low));
     real vv = dot(v, v);
-    if (!(vv > UNIT * UNIT / 4)) return 0;
+    if (is_faded(vv)) return 0;
     q->v = v;
     q->vv = vv;
     return 1;
