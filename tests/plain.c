@@ -47,6 +47,14 @@ static search q;
 
 static int place_together;
 
+/* The everyday way to them, without a glance. */
+static int open_both(void)
+{
+    static const options none;
+    q.d.calls = 0;
+    return list_both(&q, &shapes[0], &shapes[1], &none) && open_listed(&q, &shapes[0], &shapes[1], NULL);
+}
+
 /* Two boxes, each of a size of its own, out in the world, under maps that are no rotations; or under none. */
 static int open_pair(void)
 {
@@ -61,8 +69,7 @@ static int open_pair(void)
             poses[k].m[i] = any_real(-1, 1);
         }
     }
-    q.d.calls = 0;
-    if (!open_listed(&q, &shapes[0], &shapes[1], NULL)) {
+    if (!open_both()) {
         return 0;
     }
     know_offset(&q.d, &shapes[0], &shapes[1]);
@@ -470,8 +477,7 @@ static void draw_near_hulls(void)
 static long calls_to_apart(int headings)
 {
     const goal g = {.abs_tol = -1, .sign_only = 1, .exact = 1, .max_steps = 256};
-    q.d.calls = 0;
-    assert_true(open_listed(&q, &shapes[0], &shapes[1], NULL));
+    assert_true(open_both());
     assert_true(stroll(&q, &g, headings, 1) == BEYOND);
     return q.d.calls;
 }
@@ -494,6 +500,59 @@ static void headings_save_calls(void **state)
 /* ---- numbers that know how far they may be off ---- */
 
 static mpf_t truth_a, truth_b, truth_r, addend;
+
+/* Hulls and boxes, some rounded, under maps of sizes of their own. */
+static void draw_scattered(void)
+{
+    for (int k = 0; k < 2; k++) {
+        double size = pow(10, any_between(-2, 2)), of_map = pow(10, any_between(-2, 2));
+        for (int i = 0; i < DIM; i++) {
+            boxes[k].half[i] = any_real(0, size);
+            poses[k].p[i] = any_real(-3, 3) * (real)(size * of_map);
+        }
+        for (int i = 0; i < DIM * DIM; i++) poses[k].m[i] = any_real(-1, 1) * (real)of_map;
+        for (int i = 0; i < CORNERS; i++) {
+            for (int j = 0; j < DIM; j++) corners[k][i][j] = any_real(-1, 1) * (real)size;
+        }
+        clouds[k] = (points){.v = corners[k][0], .count = CORNERS};
+        clouds[k].reach = pub(points_reach)(&clouds[k]);
+        shapes[k] = any_between(0, 2) < 1 ? (shape){pub(support_box), &boxes[k], &poses[k], 0}
+                                          : (shape){pub(support_points), &clouds[k], &poses[k], 0};
+        if (k == 0 && any_between(0, 4) < 1) shapes[k].pose = NULL;
+        if (any_between(0, 3) < 1) shapes[k].radius = any_real(0, size);
+    }
+}
+
+/* What the first glance tells it tells without a frame as in one. */
+static void a_glance_needs_no_frame(void **state)
+{
+    static const options none;
+    long told = 0, apart = 0, in_vain = 0;
+    (void)state;
+    state_of_draws = 11;
+    for (int k = 0; k < PAIRS; k++) {
+        result glanced = {0}, framed = {0};
+        draw_scattered();
+        assert_true(list_both(&q, &shapes[0], &shapes[1], &none));
+        const enum glanced seen = glance(&q, &shapes[0], &shapes[1], &glanced);
+        apart += pub(intersect)(&shapes[0], &shapes[1], NULL, &framed) == GJK_DECIDED && framed.lower > 0;
+        assert_true(seen == TELLING || seen == IN_VAIN);
+        assert_true(open_both());
+        assert_true(glance_in_frame(&q, &shapes[0], &shapes[1], &framed) == (seen == TELLING));
+        if (seen == IN_VAIN) {
+            in_vain++;
+            continue;
+        }
+        told++;
+        assert_memory_equal(glanced.normal, framed.normal, sizeof framed.normal);
+        assert_memory_equal(glanced.point_a, framed.point_a, sizeof framed.point_a);
+        assert_memory_equal(glanced.point_b, framed.point_b, sizeof framed.point_b);
+        assert_true(glanced.value == framed.value && glanced.value == framed.lower && framed.lower > 0);
+        assert_true(glanced.lower == framed.lower && glanced.upper == framed.upper);
+        assert_true(glanced.steps == framed.steps && glanced.supports == framed.supports);
+    }
+    assert_true(told > 0.8 * (double)apart && in_vain > PAIRS / 10);
+}
 
 static void set_to(mpf_t x, real high, real low)
 {
@@ -611,6 +670,7 @@ int main(void)
         cmocka_unit_test(what_the_way_falls_short),
         cmocka_unit_test(done_is_not_rough),
         cmocka_unit_test(headings_save_calls),
+        cmocka_unit_test(a_glance_needs_no_frame),
         cmocka_unit_test(spans_know_how_far_they_are_off),
         cmocka_unit_test(a_sign_is_certain),
         cmocka_unit_test(weights_have_digits),

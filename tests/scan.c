@@ -72,7 +72,7 @@ static void raise_two(const list *l, vec d)
 }
 
 /* Lists of any length from a run on. */
-static void one_by_one_or_in_runs(void **state)
+static void whichever_way(void **state)
 {
     int ties = 0;
     (void)state;
@@ -84,12 +84,14 @@ static void one_by_one_or_in_runs(void **state)
             raise_two(&l, d);
             l.reach = 128;
         }
-        size_t best = farthest_of_few(&l, d, WARY);
+        size_t best = farthest_of_few(&l, d, 1), first = first_of_few(&l, d, 1);
         assert_true(best < l.count);
-        assert_true(farthest_in_runs(&l, d, WARY) == best);
-        assert_true(farthest_in_runs(&l, d, CAREFUL) == best);
-        assert_true(farthest_of_few(&l, d, CAREFUL) == best);
-        size_t first = farthest_of_few(&l, d, HASTY);
+        for (int strangers = 0; strangers < 2; strangers++) {
+            assert_true(farthest_in_runs(&l, d, strangers) == best);
+            assert_true(farthest_in_lanes(&l, d, strangers) == best);
+            assert_true(farthest_of_few(&l, d, strangers) == best);
+            assert_true(first_of_few(&l, d, strangers) == first);
+        }
         for (size_t k = 0; k < l.count; k++) {
             real here = dot(nth_of(&l, k), d), top = dot(nth_of(&l, first), d);
             assert_true(k < first ? here < top : here <= top);
@@ -115,16 +117,36 @@ static void no_numbers(void **state)
         int at = below_any((int)l.count), axis_of = below_any(DIM);
         if (d.c[axis_of] == 0) d.c[axis_of] = 1;
         v[(size_t)at * l.step + (size_t)axis_of] = nones[i % 3];
-        assert_true(farthest_of_few(&l, d, WARY) == l.count);
-        assert_true(farthest_in_runs(&l, d, WARY) == l.count);
+        assert_true(first_of_few(&l, d, 1) == l.count);
+        assert_true(farthest_of_few(&l, d, 1) == l.count);
+        assert_true(farthest_in_lanes(&l, d, 1) == l.count);
+        assert_true(farthest_in_runs(&l, d, 1) == l.count);
+    }
+}
+
+/* Heights whose sum is no number of the format, though each of them is. */
+static void no_sum(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 6000; i++) {
+        list l = any_list(1);
+        vec d = any_direction(1);
+        size_t best = farthest_of_few(&l, d, 0), first = first_of_few(&l, d, 0);
+        for (size_t k = 0; k < l.count * l.step; k++) v[k] *= 1 / (8 * REAL_MIN);
+        l.reach *= 1 / (8 * REAL_MIN);
+        assert_true(first_of_few(&l, d, 1) == first);
+        assert_true(farthest_of_few(&l, d, 1) == best);
+        assert_true(farthest_in_lanes(&l, d, 1) == best);
+        assert_true(farthest_in_runs(&l, d, 1) == best);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_by_one_or_in_runs),
+        cmocka_unit_test(whichever_way),
         cmocka_unit_test(no_numbers),
+        cmocka_unit_test(no_sum),
     };
     return cmocka_run_group_tests_name("scans", tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include "axes.h"
 #include "boxes.h"
 #include "fine.h"
+#include "glance.h"
 #include "intersect.h"
 #include "plain.h"
 #include "widen.h"
@@ -451,18 +452,32 @@ static inline enum end walk(search *q, const shape *a, const shape *b, const goa
     }
 }
 
-/* The everyday way, of sets whose corners are known. How far it led; FAULT: nowhere. q->told: to the answer. */
+/* The corners of both can be listed, and are, and nothing is asked that the everyday way does not know. */
+static inline int list_both(search *q, const shape *a, const shape *b, const options *o)
+{
+    q->listed = !o->tight && o->slack == 0 && list_corners(&q->d.a, a) && list_corners(&q->d.b, b);
+    q->glanced = UNTRIED;
+    return q->listed;
+}
+
+/* What the cache lends to the everyday way. The axes of boxes need none. */
+static inline const cache *lender_of(const shape *a, const shape *b, const options *o, int sign_only)
+{
+    return o->cache && !(sign_only && are_boxes(a, b)) && lends(o->cache, a, b) ? o->cache : NULL;
+}
+
+/* The everyday way, of sets whose corners are listed. How far it led; FAULT: nowhere. q->told: to the answer. */
 static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
-    const int by_axes = g->sign_only && are_boxes(a, b);
-    q->told = q->d.calls = 0;
-    if (o->tight || !(o->slack == 0) || !open_listed(q, a, b, by_axes ? NULL : o->cache)) return FAULT;
+    if (!open_listed(q, a, b, lender_of(a, b, o, g->sign_only))) return FAULT;
+    if (q->glanced == UNCLEAR || (q->glanced && q->d.wild)) q->told = glance_in_frame(q, a, b, r);
+    if (q->told) return BEYOND;
     goal own;
     if (!is_scale_free(g)) {
         own = scaled(g, q->d.scale);
         g = &own;
     }
-    if (by_axes) {
+    if (g->sign_only && are_boxes(a, b)) {
         q->told = tell_by_axes(q, a, b, g, r);
         if (!q->told && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     } else q->told = g->deep && tell_boxes(q, a, b, g, r);
@@ -476,11 +491,12 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     return end;
 }
 
-/* What the questions share. Not 0: the caller's mistake. */
+/* What the questions share, of bodies that are listed if they can be. Not 0: the caller's mistake. */
 static int reply_to(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end *end,
                     result *r)
 {
-    *end = answer_plainly(q, a, b, o, g, r);
+    q->told = q->d.calls = 0;
+    *end = q->listed ? answer_plainly(q, a, b, o, g, r) : FAULT;
     if (q->told) return 0;
     if (!sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
     *end = solve(q, a, b, o, g, *end, r);
@@ -509,6 +525,7 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     g.early = radius > 0 || o->abs_tol > 0 || o->rel_tol > 0;
 
     enum end end;
+    list_both(&q, a, b, o);
     int bad = reply_to(&q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.upper = larger(r.upper, 0);
@@ -526,6 +543,8 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     search q;
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
+    if (list_both(&q, a, b, o) && !lender_of(a, b, o, 1)) q.glanced = glance(&q, a, b, out);
+    if (q.glanced == TELLING) return out->status = GJK_DECIDED;
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
               .within = radius * (1 - 16 * UNIT),
@@ -578,6 +597,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
 
     enum end end;
+    list_both(&q, a, b, o);
     int bad = reply_to(&q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.value = smaller(larger(r.value, r.lower), r.upper);

@@ -292,7 +292,6 @@ static int try_axes(search *q, const gauge *k, const shape *a, const shape *b, c
 static APART int tell_by_axes(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     gauge k;
-    if (tell_gap(q, a, b, g, r)) return 1;
     if (dot(q->v, spare(&q->s)->w) > 0 || !take_gauge(&k, &q->d)) return 0;
     const vec x = clamped(k.t, k.e), y = clamped(mul(k.s, -1), k.f);
     return try_of_a(q, &k, x, a, b, r) || try_of_b(q, &k, y, a, b, r) || try_axes(q, &k, a, b, g, r);
@@ -314,7 +313,7 @@ static APART int reopen_after_axes(search *q, const shape *a, const shape *b, co
     blank(q);
     q->steps = steps;
     q->v = first_direction(&q->d);
-    return ask_anew(&q->d, q->v, spare(&q->s));
+    return ask_anew(&q->d, q->v, 1, spare(&q->s));
 }
 
 #endif

@@ -7,11 +7,14 @@
 
 #include "answer.h"
 
-/* The set's corners and its reach, without a call. 0: it has none that can be listed, or not that reach, or the data
- * describe no set. */
+/* The body's corners and, but for a box, their reach, without a call. 0: it has none that can be listed, or not that
+ * reach, or the data describe no set. */
 static inline int list_corners(body *k, const shape *s)
 {
     static const real nothing[DIM] = {0};
+    k->data = s->data;
+    k->posed = s->pose != NULL;
+    if (k->posed) k->m = s->pose->m;
     k->asked = AS_LIST;
     if (s->support == pub(support_points)) {
         const points *p = s->data;
@@ -22,8 +25,7 @@ static inline int list_corners(body *k, const shape *s)
         if (!b) return 0;
         EACH(if (!(b->half[i] >= 0)) return 0);
         k->asked = AS_BOX;
-        k->list.reach = at_most(load(b->half));
-        return k->list.reach <= REAL_MAX;
+        return 1;
     } else if (s->support == pub(support_segment)) {
         const segment *e = s->data;
         if (!e) return 0;
@@ -36,23 +38,24 @@ static inline int list_corners(body *k, const shape *s)
 #endif
     } else {
         k->list = (list){nothing, 1, DIM, padded(0)};
-        return s->support == pub(support_origin);
+        if (s->support != pub(support_origin)) return 0;
     }
+    know_reach(k, k->list.reach);
     return 1;
+}
+
+/* And the box's reach. */
+static inline void know_reach_listed(body *k)
+{
+    if (k->asked == AS_BOX) know_reach(k, at_most(load(((const box *)k->data)->half)));
 }
 
 /* 0: it is not of plain sizes. A number that is none may pass; then no corner has one, and nothing is told. */
 HOT int seize_plain(body *k, const shape *s)
 {
     k->support = s->support;
-    k->data = s->data;
-    k->stretch = 1;
-    k->posed = s->pose != NULL;
-    if (k->posed) {
-        k->m = s->pose->m;
-        k->stretch = stretch(k->m);
-    }
-    know_reach(k, k->list.reach);
+    k->stretch = k->posed ? stretch(k->m) : 1;
+    know_reach_listed(k);
     k->size = k->reach > TINY ? k->reach : 0;
     return !unruly(k->stretch) && (k->size == 0 || !unruly(k->size)) && s->radius >= 0 && s->radius < PLAIN;
 }
@@ -101,8 +104,10 @@ static void settle_rest(difference *d, const shape *a, const shape *b)
 /* The frame of any sizes, now that the reaches are known. 0: the shapes are none, or beyond all numbers. */
 static APART int settle_listed(difference *d, const shape *a, const shape *b)
 {
-    real reach_a = d->a.list.reach, reach_b = d->b.list.reach;
-    if (!sound(a) || !sound(b) || !start(d, a, b)) return 0;
+    know_reach_listed(&d->a);
+    know_reach_listed(&d->b);
+    real reach_a = d->a.reach, reach_b = d->b.reach;
+    if (!(reach_a <= REAL_MAX && reach_b <= REAL_MAX) || !sound(a) || !sound(b) || !start(d, a, b)) return 0;
     know_reach(&d->a, reach_a);
     know_reach(&d->b, reach_b);
     return settle(d, 0);
@@ -141,11 +146,13 @@ HOT int ask_plainly(difference *d, vec v, enum care care, vertex *p)
 }
 
 /* The same for the first time, and of any sizes: the supports say whether their data are good. */
-static int ask_anew(difference *d, vec v, vertex *p)
+static int ask_anew(difference *d, vec v, int hasty, vertex *p)
 {
     real reach[2];
-    if (!d->wild) return ask_plainly(d, v, WARY, p);
+    if (!d->wild) return ask_plainly(d, v, hasty ? FIRST_SIGHT : WARY, p);
     if (!ask_first(d, v, p, reach)) return 0;
+    d->calls -= hasty ? 2 : 0; /* those of before were for the data */
+    if (hasty) return ask_with(d, v, HASTY, p);
     p->w = corner_of(d, p->x, p->y);
     return 1;
 }
@@ -209,7 +216,7 @@ static int reopen_listed(search *q, const cache *k)
     int full = q->s.n > DIM;
     if (!full && vanished(q)) return 0;
     vec v = full ? away(q) : q->v;
-    if (!ask_anew(&q->d, v, &p)) return 0;
+    if (!ask_anew(&q->d, v, 0, &p)) return 0;
     if (!full) {
         *spare(&q->s) = p;
         return 1;
@@ -220,19 +227,22 @@ static int reopen_listed(search *q, const cache *k)
     return q->inside > q->d.doubt;
 }
 
-/* From the points of the last query, or from nothing. 0: not all corners can be listed, or there is something wrong.
- */
+/* Two bodies listed, from the points of the last query, which the cache lends, or from nothing. 0: there is something
+ * wrong. */
 static int open_listed(search *q, const shape *a, const shape *b, const cache *k)
 {
     blank(q);
-    if (!list_corners(&q->d.a, a) || !list_corners(&q->d.b, b)) return 0;
     if (!settle_plain(&q->d, a, b) && !settle_listed(&q->d, a, b)) return 0;
-    if (k && lends(k, a, b)) {
+    if (k) {
         if (reopen_listed(q, k)) return 1;
         blank(q);
     }
     q->v = first_direction(&q->d);
-    return ask_anew(&q->d, q->v, spare(&q->s));
+    vertex *p = spare(&q->s);
+    if (q->glanced != IN_VAIN || q->d.wild) return ask_anew(&q->d, q->v, q->glanced != UNTRIED, p);
+    q->d.calls += 2;
+    p->w = mul(p->w, q->d.scale);
+    return 1;
 }
 
 #endif

@@ -43,14 +43,14 @@ static inline lanes heights(const real *x, size_t step, const ways *d)
     return r;
 }
 
-/* Of a run, in each lane the highest; to none are added the heights times 0. */
-static inline lanes highest_in_run(const real *x, size_t step, const ways *d, lanes *none)
+/* Of a run, in each lane the highest; to all the heights are added. */
+static inline lanes highest_in_run(const real *x, size_t step, const ways *d, lanes *all)
 {
-    lanes most = heights(x, step, d), zero = in_all(0);
-    *none = sums(*none, products(most, zero));
+    lanes most = heights(x, step, d);
+    *all = sums(*all, most);
     for (int k = LANES; k < RUN; k += LANES) {
         lanes next = heights(x + (size_t)k * step, step, d);
-        *none = sums(*none, products(next, zero));
+        *all = sums(*all, next);
         most = larger_ones(most, next);
     }
     return most;
@@ -69,10 +69,10 @@ static APART size_t settle_tie(const list *l, vec d, size_t best, real almost)
     const size_t n = l->count, step = l->step;
     const vec top = nth_of(l, best);
     real highest = 0, leave = 2 * UNIT * l->reach * peak(d);
-    lanes none = in_all(0), least = in_all(almost);
+    lanes all = in_all(0), least = in_all(almost);
     ways way = ways_of(d);
     for (size_t i = 0; i < n; i++) {
-        while (n >= MANY && i + RUN < n && !any_as_large(highest_in_run(l->v + i * step, step, &way, &none), least))
+        while (n >= MANY && i + RUN < n && !any_as_large(highest_in_run(l->v + i * step, step, &way, &all), least))
             i += RUN;
         vec x = nth_of(l, i);
         if (!(dot(x, d) >= almost)) continue;
@@ -108,36 +108,125 @@ static inline size_t settle_summit(const list *l, vec d, summit s)
 
 /* ---- few points, and many ---- */
 
-/* How points are looked at: some may be no numbers; or all are; or then in haste, so that the first of the highest by
- * rounded heights will do, which falls short by no more than the licence of 8. */
-enum care { WARY, CAREFUL, HASTY };
+/* How points are looked at: some may be no numbers, or all are; and almost equals are told apart, or the first of the
+ * highest by rounded heights will do, which falls short by no more than the licence of 8. */
+enum care { HASTY, CAREFUL, FIRST_SIGHT, WARY };
 
-HOT size_t farthest_of_few(const list *l, vec d, enum care care)
+static inline int tells_equals(enum care care) { return care == CAREFUL || care == WARY; }
+static inline int is_of_strangers(enum care care) { return care == FIRST_SIGHT || care == WARY; }
+
+/* A number times 0 is 0, unless it is none or not finite. */
+static APART int are_numbers(const list *l, vec d)
+{
+    real none = 0;
+    for (size_t i = 0; i < l->count; i++) none += dot(nth_of(l, i), d) * 0;
+    return none == 0;
+}
+
+/* A sum of heights is finite only if every height, and with it every point, is; it need not be if they are. */
+static inline int has_none(const list *l, vec d, real sum) { return !(sum * 0 == 0) && !are_numbers(l, d); }
+
+/* In haste. Every other point for itself, so that one need not wait for the other. */
+HOT size_t first_of_few(const list *l, vec d, int strangers)
+{
+    const real *x = l->v;
+    const size_t step = l->step;
+    real even = dot(load(x), d), odd = -REAL_MAX, sum = even, sum_of_odd = 0;
+    size_t at = 0, at_odd = 0, i = 1;
+    for (; i < l->count; i += 2) {
+        real height = dot(load(x + step), d);
+        sum_of_odd += height;
+        at_odd = height > odd ? i : at_odd;
+        odd = larger(height, odd);
+        if (i + 1 == l->count) break;
+        height = dot(load(x += 2 * step), d);
+        sum += height;
+        at = height > even ? i + 1 : at;
+        even = larger(height, even);
+    }
+    if (strangers && has_none(l, d, sum + sum_of_odd)) return l->count;
+    return odd > even || (odd == even && at_odd < at) ? at_odd : at;
+}
+
+HOT size_t farthest_of_few(const list *l, vec d, int strangers)
 {
     const real *x = l->v;
     summit s = {dot(load(x), d), -REAL_MAX, 0};
-    real none = s.highest * 0;
+    real sum = s.highest;
     for (size_t i = 1; i < l->count; i++) {
         real height = dot(load(x += l->step), d);
-        none += height * 0;
+        sum += height;
         s = see(s, height, i);
     }
-    if (care == HASTY) return s.at;
-    return care == CAREFUL || none == 0 ? settle_summit(l, d, s) : l->count;
+    return strangers && has_none(l, d, sum) ? l->count : settle_summit(l, d, s);
 }
 
-/* A summit in each lane, of runs. */
+/* A summit in each lane. */
 typedef struct summits {
     lanes highest, second;
     indices at;
 } summits;
 
-static inline summits see_run(summits s, lanes height, indices at)
+static inline summits see_all(summits s, lanes height, indices at)
 {
     s.second = larger_ones(smaller_ones(height, s.highest), s.second);
     s.at = where_larger(height, s.highest, at, s.at);
     s.highest = larger_ones(height, s.highest);
     return s;
+}
+
+static inline real sum_of_lanes(lanes x)
+{
+    real parts[LANES], sum = 0;
+    part_lanes(x, parts);
+    for (int k = 0; k < LANES; k++) sum += parts[k];
+    return sum;
+}
+
+/* Of all lanes, the first among equals; n in a lane is the point LANES n + lane. */
+static inline summit highest_lane(const summits *all)
+{
+    real highest[LANES], second[LANES];
+    uint32_t at[LANES];
+    part_lanes(all->highest, highest);
+    part_lanes(all->second, second);
+    part_indices(all->at, at);
+    summit s = {highest[0], second[0], (size_t)at[0] * LANES};
+    for (size_t k = 1; k < LANES; k++) {
+        const size_t n = (size_t)at[k] * LANES + k;
+        s.at = highest[k] > s.highest || (highest[k] == s.highest && n < s.at) ? n : s.at;
+        s.second = larger(smaller(highest[k], s.highest), larger(second[k], s.second));
+        s.highest = larger(highest[k], s.highest);
+    }
+    return s;
+}
+
+/* So few that lanes do not pay. */
+#define FEWER_THAN_LANES (LANES > 1 ? 4 * LANES : MANY)
+
+HOT size_t farthest_in_lanes(const list *l, vec d, int strangers)
+{
+    const real *x = l->v;
+    const size_t step = l->step;
+    const ways way = ways_of(d);
+    summits all = {heights(x, step, &way), in_all(-REAL_MAX), index_in_all(0)};
+    lanes total = all.highest;
+    indices at = index_in_all(0);
+    size_t i = LANES;
+    for (x += LANES * step; i + LANES <= l->count; i += LANES, x += LANES * step) {
+        lanes height = heights(x, step, &way);
+        at = next_indices(at);
+        total = sums(total, height);
+        all = see_all(all, height, at);
+    }
+    summit s = highest_lane(&all);
+    real sum = sum_of_lanes(total);
+    for (; i < l->count; i++, x += step) {
+        real height = dot(load(x), d);
+        sum += height;
+        s = see(s, height, i);
+    }
+    return strangers && has_none(l, d, sum) ? l->count : settle_summit(l, d, s);
 }
 
 /* The point that is the highest of all lanes. */
@@ -170,39 +259,42 @@ static inline size_t first_of_height(const list *l, vec d, real height)
 /* As many runs as indices count; points beyond these are looked at one by one. */
 #define MOST_RUNS 0x7fffffffu
 
-HOT size_t farthest_in_runs(const list *l, vec d, enum care care)
+HOT size_t farthest_in_runs(const list *l, vec d, int strangers)
 {
     const size_t step = l->step, runs = l->count / RUN < MOST_RUNS ? l->count / RUN : MOST_RUNS;
     const real *x = l->v;
     const ways way = ways_of(d);
     summits all = {in_all(-REAL_MAX), in_all(-REAL_MAX), index_in_all(0)};
-    lanes lost = in_all(0);
+    lanes total = in_all(0);
     indices at = index_in_all(0);
-    real none = 0, parts[LANES];
     for (size_t k = 0; k < runs; k++, x += RUN * step, at = next_indices(at))
-        all = see_run(all, highest_in_run(x, step, &way, &lost), at);
+        all = see_all(all, highest_in_run(x, step, &way, &total), at);
     summit s = summit_of(&all, l, d);
-    part_lanes(lost, parts);
-    for (int k = 0; k < LANES; k++) none += parts[k];
+    real sum = sum_of_lanes(total);
     for (size_t i = runs * RUN; i < l->count; i++, x += step) {
         real height = dot(load(x), d);
-        none += height * 0;
+        sum += height;
         s = see(s, height, i);
     }
-    if (care == WARY && !(none == 0)) return l->count;
+    if (strangers && has_none(l, d, sum)) return l->count;
     if (s.second == s.highest) s.at = first_of_height(l, d, s.highest);
     return settle_summit(l, d, s);
 }
 
-static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, WARY); }
-static APART size_t farthest_of_many_numbers(const list *l, vec d) { return farthest_in_runs(l, d, CAREFUL); }
+static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, 1); }
+static APART size_t farthest_of_many_numbers(const list *l, vec d) { return farthest_in_runs(l, d, 0); }
+static APART size_t farthest_of_some(const list *l, vec d) { return farthest_in_lanes(l, d, 1); }
+static APART size_t farthest_of_some_numbers(const list *l, vec d) { return farthest_in_lanes(l, d, 0); }
 
-/* Farthest of the points, the first among equals; of WARY looks their count if one is not finite. The sum of heights
- * times 0 is 0 only if every height, and with it every point, is finite. Many are looked at with care at least. */
+/* Farthest of the points, the first among equals; of strangers their count if one is not finite. Of many, and of so few
+ * as a segment or a triangle has, almost equals are told apart in any case. */
 HOT size_t farthest_among(const list *l, vec d, enum care care)
 {
-    if (l->count < MANY) return farthest_of_few(l, d, care);
-    return care == WARY ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
+    const int strangers = is_of_strangers(care);
+    if (l->count >= MANY) return strangers ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
+    if (!tells_equals(care) && l->count > 3) return first_of_few(l, d, strangers);
+    if (l->count < FEWER_THAN_LANES) return farthest_of_few(l, d, strangers);
+    return strangers ? farthest_of_some(l, d) : farthest_of_some_numbers(l, d);
 }
 
 /* The same, where it is one call among many. */
