@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* Equal inputs give equal bits: on every machine, by every compiler, at every setting that leaves IEEE arithmetic as it
  * is. Thousands of pairs are drawn by +, -, *, / and sqrt alone, which are the same everywhere; what the library
- * answers is folded into a number for each question, and these are known. It needs nothing but the library, so that it
- * can be taken to another machine: tests/machines.sh. A change that means to change bits puts the new numbers below. */
+ * answers is folded into a number for each question, and these are known. It needs nothing but the library and this
+ * folder, so that it can be taken to another machine: tests/machines.sh. A change that means to change bits puts the
+ * new numbers below. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <gjk/gjk.h>
+#include "splitmix.h"
 
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
@@ -53,14 +55,7 @@ typedef struct body {
 static uint64_t state_of_draws;
 static body a, b;
 
-/* splitmix64 */
-static uint64_t draw(void)
-{
-    uint64_t z = state_of_draws += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
+static uint64_t draw(void) { return splitmix64(&state_of_draws); }
 
 static int below(int n) { return (int)(draw() % (uint64_t)n); }
 

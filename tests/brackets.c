@@ -316,7 +316,7 @@ static double share_of(const real *dir)
     for (int i = 0; i < DIM; i++) {
         uint64_t word = 0;
         memcpy(&word, &dir[i], sizeof dir[i]);
-        mix = mixed(&word) ^ (mix << 1);
+        mix = splitmix64(&word) ^ (mix << 1);
     }
     return (double)(mix >> 11) / 9007199254740992.0;
 }

@@ -4,29 +4,22 @@
 #ifndef DRAW_H
 #define DRAW_H
 
+#include "splitmix.h"
 #include "variant.h"
 
 typedef struct draws {
     uint64_t s[4];
 } draws;
 
-static inline uint64_t mixed(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 /* A stream of its own for each (seed, family, index), so that one pair can be drawn again by itself. */
 static inline draws draws_from(uint64_t seed, uint64_t family, uint64_t index)
 {
     draws d;
     uint64_t state = seed;
-    state = mixed(&state) ^ family;
-    state = mixed(&state) ^ index;
+    state = splitmix64(&state) ^ family;
+    state = splitmix64(&state) ^ index;
     for (int i = 0; i < 4; i++) {
-        d.s[i] = mixed(&state);
+        d.s[i] = splitmix64(&state);
     }
     return d;
 }

@@ -48,9 +48,9 @@ static double hash(uint64_t seed, const real *dir, int i)
     for (int j = 0; j < DIM; j++) {
         uint64_t word = 0;
         memcpy(&word, &dir[j], sizeof dir[j]);
-        state = mixed(&state) ^ word;
+        state = splitmix64(&state) ^ word;
     }
-    return (double)(mixed(&state) >> 11) / 4503599627370496.0 - 1;
+    return (double)(splitmix64(&state) >> 11) / 4503599627370496.0 - 1;
 }
 
 static void shrink(real *point, double by)

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 #include <gmp.h>
 #include "quad.h"
+#include "splitmix.h"
 
 #define GJK_ALONE
 #if VARIANT_DIM == 2 && VARIANT_FLOAT
@@ -28,14 +29,9 @@
 
 static uint64_t state_of_draws;
 
-/* splitmix64 */
 static double any_between(double least, double most)
 {
-    uint64_t z = state_of_draws += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return least + (most - least) * ((double)(z >> 11) / 0x1p53);
+    return least + (most - least) * ((double)(splitmix64(&state_of_draws) >> 11) / 0x1p53);
 }
 
 static real any_real(double least, double most) { return (real)any_between(least, most); }

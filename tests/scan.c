@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+#include "splitmix.h"
 
 #define GJK_ALONE
 #if VARIANT_DIM == 2 && VARIANT_FLOAT
@@ -25,14 +26,7 @@
 static real v[MOST * WIDEST];
 static uint64_t state_of_draws;
 
-/* splitmix64 */
-static int below_any(int n)
-{
-    uint64_t z = state_of_draws += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (int)((z ^ (z >> 31)) % (uint64_t)n);
-}
+static int below_any(int n) { return (int)(splitmix64(&state_of_draws) % (uint64_t)n); }
 
 static real any_real(void) { return (real)(below_any(1 << 24) - (1 << 23)) / (real)(1 << 23); }
 

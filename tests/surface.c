@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <cmocka.h>
 #include "quad.h"
+#include "splitmix.h"
 
 #if VARIANT_DIM == 2
 #include "../src/gjk2.c"
@@ -30,13 +31,7 @@ static uint64_t state_of_draws;
 
 static void draw_from(int number) { state_of_draws = (uint64_t)number; }
 
-static uint64_t any_bits(void)
-{
-    uint64_t z = state_of_draws += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
+static uint64_t any_bits(void) { return splitmix64(&state_of_draws); }
 
 static int any_below(int n) { return (int)(any_bits() % (uint64_t)n); }
 

@@ -69,7 +69,6 @@ static inline int take_boxes(zonotope *z, const difference *d)
 
 /* ---- the facets, in plain numbers ---- */
 
-/* Across which axes each facet is. */
 /* What a height may be off, times the length of the normal: in shares of size times far. */
 #define PAIR_DOUBT (32 * UNIT)
 
