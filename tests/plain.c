@@ -550,6 +550,41 @@ static void a_glance_needs_no_frame(void **state)
     assert_true(told > 0.8 * (double)apart && in_vain > PAIRS / 10);
 }
 
+/* Squares of lengths near the root of the largest number: sets off their own positions, in a unit so large, answer as
+ * they do in their own. */
+static void a_glance_sees_no_overflow(void **state)
+{
+    (void)state;
+    state_of_draws = 12;
+    for (int k = 0; k < PAIRS / 10; k++) {
+        result own, large;
+        const real off = any_real((real)0.1, 1), c = any_real((real)0.1, 1),
+                   radius = k % 3 ? 0 : any_real(0, (real)0.1);
+        const int unposed = any_between(0, 2) < 1;
+        const real half[2] = {any_real(0, (real)0.1), any_real(0, (real)0.1)};
+        for (int e = 0; e <= 8; e++) {
+            const real unit = (real)(e == 0 ? 1 : ldexp(1, (sizeof(real) == 8 ? 512 : 64) - 6 + e));
+            for (int i = 0; i < 2 * DIM; i++) corners[0][i / DIM][i % DIM] = 0;
+            corners[0][0][0] = corners[0][1][0] = -off * unit;
+            corners[0][1][1] = half[0] * unit;
+            clouds[0] = (points){.v = corners[0][0], .count = 2, .reach = off * unit * (real)1.25};
+            for (int i = 0; i < DIM; i++) {
+                boxes[1].half[i] = half[1] * unit;
+                poses[0].p[i] = poses[1].p[i] = 0;
+                for (int j = 0; j < DIM; j++) poses[0].m[DIM * i + j] = poses[1].m[DIM * i + j] = i == j;
+            }
+            poses[1].p[0] = c * unit;
+            shapes[0] = (shape){pub(support_points), &clouds[0], unposed ? NULL : &poses[0], 0};
+            shapes[1] = (shape){pub(support_box), &boxes[1], &poses[1], radius * unit};
+            result *r = e == 0 ? &own : &large;
+            pub(intersect)(&shapes[0], &shapes[1], NULL, r);
+            if (e == 0) continue;
+            assert_int_equal(large.status, own.status);
+            assert_true(large.lower == own.lower * unit && large.upper == own.upper * unit);
+        }
+    }
+}
+
 static void set_to(mpf_t x, real high, real low)
 {
     mpf_set_d(x, (double)high);
@@ -667,6 +702,7 @@ int main(void)
         cmocka_unit_test(done_is_not_rough),
         cmocka_unit_test(headings_save_calls),
         cmocka_unit_test(a_glance_needs_no_frame),
+        cmocka_unit_test(a_glance_sees_no_overflow),
         cmocka_unit_test(spans_know_how_far_they_are_off),
         cmocka_unit_test(a_sign_is_certain),
         cmocka_unit_test(weights_have_digits),

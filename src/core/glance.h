@@ -105,7 +105,9 @@ static inline enum glanced glance(search *q, const shape *a, const shape *b, res
     const real map_a = square_of_map(&d->a, 1), map_b = square_of_map(&d->b, 1);
     const real set_a = square_of_reach(&d->a, 1), set_b = square_of_reach(&d->b, 1);
     if (!(smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN)) return UNCLEAR;
-    weigh_evidence(&e, v, map_a * set_a + map_b * set_b + cc);
+    const real square = map_a * set_a + map_b * set_b + cc;
+    if (!(square < REAL_MAX / 4)) return UNCLEAR; /* the squares of w and of its height are up to three times that */
+    weigh_evidence(&e, v, square);
     if (!(e.lower > a->radius + b->radius)) return IN_VAIN;
     if (a->radius + b->radius == 0) {
         spell_sharp(&e, v, a, b, r);
@@ -115,6 +117,7 @@ static inline enum glanced glance(search *q, const shape *a, const shape *b, res
     d->scale = d->unscale = d->a.grain = d->b.grain = 1;
     d->wild = 0;
     d->calls = 2;
+    q->steps = 1;
     if (!spell_evidence(q, &e, v, p->x, p->y, a, b, &round)) return IN_VAIN;
     *r = round;
     return TELLING;
