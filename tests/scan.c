@@ -78,14 +78,12 @@ static void whichever_way(void **state)
             raise_two(&l, d);
             l.reach = 128;
         }
-        size_t best = farthest_of_few(&l, d, 1), first = first_of_few(&l, d, 1);
+        size_t best = farthest_of_few(&l, d, WARY), first = farthest_of_few(&l, d, HASTY);
         assert_true(best < l.count);
-        for (int strangers = 0; strangers < 2; strangers++) {
-            assert_true(farthest_in_runs(&l, d, strangers) == best);
-            assert_true(farthest_in_lanes(&l, d, strangers) == best);
-            assert_true(farthest_of_few(&l, d, strangers) == best);
-            assert_true(first_of_few(&l, d, strangers) == first);
-        }
+        assert_true(farthest_in_runs(&l, d, 0) == best);
+        assert_true(farthest_in_runs(&l, d, 1) == best);
+        assert_true(farthest_of_few(&l, d, CAREFUL) == best);
+        assert_true(farthest_of_few(&l, d, FIRST_SIGHT) == first);
         for (size_t k = 0; k < l.count; k++) {
             real here = dot(nth_of(&l, k), d), top = dot(nth_of(&l, first), d);
             assert_true(k < first ? here < top : here <= top);
@@ -111,9 +109,8 @@ static void no_numbers(void **state)
         int at = below_any((int)l.count), axis_of = below_any(DIM);
         if (d.c[axis_of] == 0) d.c[axis_of] = 1;
         v[(size_t)at * l.step + (size_t)axis_of] = nones[i % 3];
-        assert_true(first_of_few(&l, d, 1) == l.count);
-        assert_true(farthest_of_few(&l, d, 1) == l.count);
-        assert_true(farthest_in_lanes(&l, d, 1) == l.count);
+        assert_true(farthest_of_few(&l, d, FIRST_SIGHT) == l.count);
+        assert_true(farthest_of_few(&l, d, WARY) == l.count);
         assert_true(farthest_in_runs(&l, d, 1) == l.count);
     }
 }
@@ -125,12 +122,11 @@ static void no_sum(void **state)
     for (int i = 0; i < 6000; i++) {
         list l = any_list(1);
         vec d = any_direction(1);
-        size_t best = farthest_of_few(&l, d, 0), first = first_of_few(&l, d, 0);
+        size_t best = farthest_of_few(&l, d, CAREFUL), first = farthest_of_few(&l, d, HASTY);
         for (size_t k = 0; k < l.count * l.step; k++) v[k] *= 1 / (8 * REAL_MIN);
         l.reach *= 1 / (8 * REAL_MIN);
-        assert_true(first_of_few(&l, d, 1) == first);
-        assert_true(farthest_of_few(&l, d, 1) == best);
-        assert_true(farthest_in_lanes(&l, d, 1) == best);
+        assert_true(farthest_of_few(&l, d, FIRST_SIGHT) == first);
+        assert_true(farthest_of_few(&l, d, WARY) == best);
         assert_true(farthest_in_runs(&l, d, 1) == best);
     }
 }

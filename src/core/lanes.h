@@ -18,12 +18,7 @@ static inline lanes products(lanes x, lanes y) { return _mm_mul_pd(x, y); }
 static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_pd(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_pd(x, y); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cmpge_pd(x, y)); }
-
-static inline void part_lanes(lanes x, real r[LANES])
-{
-    r[0] = _mm_cvtsd_f64(x);
-    r[1] = _mm_cvtsd_f64(_mm_unpackhi_pd(x, x));
-}
+static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
 
 /* A number of each point, step by step. */
 static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
@@ -41,8 +36,10 @@ static inline indices next_indices(indices n)
 }
 static inline void part_indices(indices n, uint32_t r[LANES])
 {
-    r[0] = (uint32_t)_mm_cvtsi128_si32(_mm_castpd_si128(n));
-    r[1] = (uint32_t)_mm_cvtsi128_si32(_mm_castpd_si128(_mm_unpackhi_pd(n, n)));
+    uint32_t twice[4];
+    _mm_storeu_si128((__m128i *)(void *)twice, _mm_castpd_si128(n));
+    r[0] = twice[0];
+    r[1] = twice[2];
 }
 
 /* n where x > y, else m. */
@@ -61,14 +58,7 @@ static inline lanes products(lanes x, lanes y) { return _mm_mul_ps(x, y); }
 static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_ps(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_ps(x, y); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_ps(_mm_cmpge_ps(x, y)); }
-
-static inline void part_lanes(lanes x, real r[LANES])
-{
-    r[0] = _mm_cvtss_f32(x);
-    r[1] = _mm_cvtss_f32(_mm_shuffle_ps(x, x, 1));
-    r[2] = _mm_cvtss_f32(_mm_movehl_ps(x, x));
-    r[3] = _mm_cvtss_f32(_mm_shuffle_ps(x, x, 3));
-}
+static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_ps(r, x); }
 
 /* x and y of two points, step apart. */
 static inline lanes load_two(const real *x, size_t step)
@@ -101,10 +91,7 @@ static inline indices next_indices(indices n)
 }
 static inline void part_indices(indices n, uint32_t r[LANES])
 {
-    r[0] = (uint32_t)_mm_cvtsi128_si32(_mm_castps_si128(n));
-    r[1] = (uint32_t)_mm_cvtsi128_si32(_mm_castps_si128(_mm_shuffle_ps(n, n, 1)));
-    r[2] = (uint32_t)_mm_cvtsi128_si32(_mm_castps_si128(_mm_movehl_ps(n, n)));
-    r[3] = (uint32_t)_mm_cvtsi128_si32(_mm_castps_si128(_mm_shuffle_ps(n, n, 3)));
+    _mm_storeu_si128((__m128i *)(void *)r, _mm_castps_si128(n));
 }
 
 /* n where x > y, else m. */

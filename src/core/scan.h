@@ -126,29 +126,7 @@ static APART int are_numbers(const list *l, vec d)
 /* A sum of heights is finite only if every height, and with it every point, is; it need not be if they are. */
 static inline int has_none(const list *l, vec d, real sum) { return !(sum * 0 == 0) && !are_numbers(l, d); }
 
-/* In haste. Every other point for itself, so that one need not wait for the other. */
-HOT size_t first_of_few(const list *l, vec d, int strangers)
-{
-    const real *x = l->v;
-    const size_t step = l->step;
-    real even = dot(load(x), d), odd = -REAL_MAX, sum = even, sum_of_odd = 0;
-    size_t at = 0, at_odd = 0, i = 1;
-    for (; i < l->count; i += 2) {
-        real height = dot(load(x + step), d);
-        sum_of_odd += height;
-        at_odd = height > odd ? i : at_odd;
-        odd = larger(height, odd);
-        if (i + 1 == l->count) break;
-        height = dot(load(x += 2 * step), d);
-        sum += height;
-        at = height > even ? i + 1 : at;
-        even = larger(height, even);
-    }
-    if (strangers && has_none(l, d, sum + sum_of_odd)) return l->count;
-    return odd > even || (odd == even && at_odd < at) ? at_odd : at;
-}
-
-HOT size_t farthest_of_few(const list *l, vec d, int strangers)
+HOT size_t farthest_of_few(const list *l, vec d, enum care care)
 {
     const real *x = l->v;
     summit s = {dot(load(x), d), -REAL_MAX, 0};
@@ -158,16 +136,17 @@ HOT size_t farthest_of_few(const list *l, vec d, int strangers)
         sum += height;
         s = see(s, height, i);
     }
-    return strangers && has_none(l, d, sum) ? l->count : settle_summit(l, d, s);
+    if (is_of_strangers(care) && has_none(l, d, sum)) return l->count;
+    return tells_equals(care) || l->count <= 3 ? settle_summit(l, d, s) : s.at;
 }
 
-/* A summit in each lane. */
+/* A summit in each lane, of runs. */
 typedef struct summits {
     lanes highest, second;
     indices at;
 } summits;
 
-static inline summits see_all(summits s, lanes height, indices at)
+static inline summits see_run(summits s, lanes height, indices at)
 {
     s.second = larger_ones(smaller_ones(height, s.highest), s.second);
     s.at = where_larger(height, s.highest, at, s.at);
@@ -181,52 +160,6 @@ static inline real sum_of_lanes(lanes x)
     part_lanes(x, parts);
     for (int k = 0; k < LANES; k++) sum += parts[k];
     return sum;
-}
-
-/* Of all lanes, the first among equals; n in a lane is the point LANES n + lane. */
-static inline summit highest_lane(const summits *all)
-{
-    real highest[LANES], second[LANES];
-    uint32_t at[LANES];
-    part_lanes(all->highest, highest);
-    part_lanes(all->second, second);
-    part_indices(all->at, at);
-    summit s = {highest[0], second[0], (size_t)at[0] * LANES};
-    for (size_t k = 1; k < LANES; k++) {
-        const size_t n = (size_t)at[k] * LANES + k;
-        s.at = highest[k] > s.highest || (highest[k] == s.highest && n < s.at) ? n : s.at;
-        s.second = larger(smaller(highest[k], s.highest), larger(second[k], s.second));
-        s.highest = larger(highest[k], s.highest);
-    }
-    return s;
-}
-
-/* So few that lanes do not pay. */
-#define FEWER_THAN_LANES (LANES > 1 ? 4 * LANES : MANY)
-
-HOT size_t farthest_in_lanes(const list *l, vec d, int strangers)
-{
-    const real *x = l->v;
-    const size_t step = l->step;
-    const ways way = ways_of(d);
-    summits all = {heights(x, step, &way), in_all(-REAL_MAX), index_in_all(0)};
-    lanes total = all.highest;
-    indices at = index_in_all(0);
-    size_t i = LANES;
-    for (x += LANES * step; i + LANES <= l->count; i += LANES, x += LANES * step) {
-        lanes height = heights(x, step, &way);
-        at = next_indices(at);
-        total = sums(total, height);
-        all = see_all(all, height, at);
-    }
-    summit s = highest_lane(&all);
-    real sum = sum_of_lanes(total);
-    for (; i < l->count; i++, x += step) {
-        real height = dot(load(x), d);
-        sum += height;
-        s = see(s, height, i);
-    }
-    return strangers && has_none(l, d, sum) ? l->count : settle_summit(l, d, s);
 }
 
 /* The point that is the highest of all lanes. */
@@ -268,7 +201,7 @@ HOT size_t farthest_in_runs(const list *l, vec d, int strangers)
     lanes total = in_all(0);
     indices at = index_in_all(0);
     for (size_t k = 0; k < runs; k++, x += RUN * step, at = next_indices(at))
-        all = see_all(all, highest_in_run(x, step, &way, &total), at);
+        all = see_run(all, highest_in_run(x, step, &way, &total), at);
     summit s = summit_of(&all, l, d);
     real sum = sum_of_lanes(total);
     for (size_t i = runs * RUN; i < l->count; i++, x += step) {
@@ -283,18 +216,13 @@ HOT size_t farthest_in_runs(const list *l, vec d, int strangers)
 
 static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, 1); }
 static APART size_t farthest_of_many_numbers(const list *l, vec d) { return farthest_in_runs(l, d, 0); }
-static APART size_t farthest_of_some(const list *l, vec d) { return farthest_in_lanes(l, d, 1); }
-static APART size_t farthest_of_some_numbers(const list *l, vec d) { return farthest_in_lanes(l, d, 0); }
 
 /* Farthest of the points, the first among equals; of strangers their count if one is not finite. Of many, and of so few
  * as a segment or a triangle has, almost equals are told apart in any case. */
 HOT size_t farthest_among(const list *l, vec d, enum care care)
 {
-    const int strangers = is_of_strangers(care);
-    if (l->count >= MANY) return strangers ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
-    if (!tells_equals(care) && l->count > 3) return first_of_few(l, d, strangers);
-    if (l->count < FEWER_THAN_LANES) return farthest_of_few(l, d, strangers);
-    return strangers ? farthest_of_some(l, d) : farthest_of_some_numbers(l, d);
+    if (l->count < MANY) return farthest_of_few(l, d, care);
+    return is_of_strangers(care) ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
 }
 
 /* The same, where it is one call among many. */

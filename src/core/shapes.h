@@ -128,7 +128,7 @@ static inline list list_of(const real (*v)[DIM], size_t n)
 static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])
 {
     list l = list_of(v, n);
-    size_t best = l.reach <= REAL_MAX ? farthest_of_few(&l, load(dir), 1) : n;
+    size_t best = l.reach <= REAL_MAX ? farthest_of_few(&l, load(dir), WARY) : n;
     if (best == n) return refuse(out);
     store(out, load(v[best]));
     return l.reach;
