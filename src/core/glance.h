@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The first glance, where it is only asked whether the bodies meet: most pairs of a scene are far apart, and one corner
- * along the line of centres shows it. That is told in the caller's own lengths, without a frame, if their squares'
- * squares are within range; else in the frame, to the same bits. */
+ * along the line of centres shows it. That is told in the caller's own lengths, without a frame, if their squares
+ * neither underflow nor overflow; else in the frame, to the same bits. */
 #ifndef GJK_CORE_GLANCE_H
 #define GJK_CORE_GLANCE_H
 
@@ -90,6 +90,21 @@ static int spell_evidence(search *q, const evidence *e, vec v, vec x, vec y, con
     return r->lower > 0;
 }
 
+/* Of round bodies, in the caller's lengths: a frame of scale 1, for as long as that takes. 0: the radii meet, and r is
+ * as it was. */
+static int spell_round(search *q, const evidence *e, vec v, const vertex *p, const shape *a, const shape *b, result *r)
+{
+    difference *d = &q->d;
+    result round;
+    d->scale = d->unscale = d->a.grain = d->b.grain = 1;
+    d->wild = 0;
+    d->calls = 2;
+    q->steps = 1;
+    if (!spell_evidence(q, e, v, p->x, p->y, a, b, &round)) return 0;
+    *r = round;
+    return 1;
+}
+
 /* Whether the first corner shows it, of two bodies listed, of which nothing more is known. */
 static inline enum glanced glance(search *q, const shape *a, const shape *b, result *r)
 {
@@ -109,17 +124,8 @@ static inline enum glanced glance(search *q, const shape *a, const shape *b, res
     if (!(square < REAL_MAX / 4)) return UNCLEAR; /* the squares of w and of its height are up to three times that */
     weigh_evidence(&e, v, square);
     if (!(e.lower > a->radius + b->radius)) return IN_VAIN;
-    if (a->radius + b->radius == 0) {
-        spell_sharp(&e, v, a, b, r);
-        return TELLING;
-    }
-    result round;
-    d->scale = d->unscale = d->a.grain = d->b.grain = 1;
-    d->wild = 0;
-    d->calls = 2;
-    q->steps = 1;
-    if (!spell_evidence(q, &e, v, p->x, p->y, a, b, &round)) return IN_VAIN;
-    *r = round;
+    if (a->radius + b->radius > 0) return spell_round(q, &e, v, p, a, b, r) ? TELLING : IN_VAIN;
+    spell_sharp(&e, v, a, b, r);
     return TELLING;
 }
 
