@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x04c3da83d7ea5ff7, 0xc08755f516038630, 0x773e64c6f05e6d21};
+static const uint64_t known[3] = {0x04c3da83d7ea5ff7, 0xaecd6516bb4ece28, 0x773e64c6f05e6d21};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xb49653603c657d63, 0x27337baed9136ede, 0x2cf8eae3c8122f21};
+static const uint64_t known[3] = {0xb49653603c657d63, 0x14fb5221570e82d2, 0x2cf8eae3c8122f21};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x4ccb3c4b2fb959d2, 0x7aa70e6456603b38, 0x51e4cc029cd00ba3};
+static const uint64_t known[3] = {0x4ccb3c4b2fb959d2, 0x39ae7fddc3e27f00, 0x51e4cc029cd00ba3};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x31cf1196cc064896, 0x97d75174a00ef350, 0x66e68bf852163f64};
+static const uint64_t known[3] = {0x31cf1196cc064896, 0x51161173c0402ae0, 0x66e68bf852163f64};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

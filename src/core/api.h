@@ -29,17 +29,41 @@ static APART int read_aged_options(options *o, const options *given)
     return 1;
 }
 
-/* What is asked: the caller's options, copied to own, or none. NULL: they say what makes no sense. */
-static const options *read_options(options *own, const options *given)
+static inline uint32_t steps_of(const options *o)
+{
+    if (o->max_steps == 0) return 256;
+    return o->max_steps < INT32_MAX / 4 ? o->max_steps : INT32_MAX / 4;
+}
+
+/* What is asked: the caller's options as they stand there, or none; of another age copied to own. NULL: they say what
+ * makes no sense. */
+static inline const options *check_options(options *own, const options *given)
 {
     static const options none = {.size = sizeof none, .max_steps = 256};
+    const options *o = given;
     if (!given) return &none;
-    if (given->size == sizeof *own) *own = *given;
-    else if (!read_aged_options(own, given)) return NULL;
-    if (own->max_steps == 0) own->max_steps = none.max_steps;
-    if (own->max_steps > INT32_MAX / 4) own->max_steps = INT32_MAX / 4;
-    int fine = is_length(own->abs_tol) && is_length(own->rel_tol) && is_length(own->cutoff) && is_length(own->slack);
-    return fine && own->tight <= 1 ? own : NULL;
+    if (given->size != sizeof *own) {
+        if (!read_aged_options(own, given)) return NULL;
+        own->max_steps = steps_of(own);
+        o = own;
+    }
+    int fine = is_length(o->abs_tol) & is_length(o->rel_tol) & is_length(o->cutoff) & is_length(o->slack);
+    return fine & (o->tight <= 1) ? o : NULL;
+}
+
+/* The caller's own are copied before the first callback, which may change them. */
+static inline const options *keep_options(options *own, const options *o, const options *given)
+{
+    if (o != given) return o;
+    *own = *given;
+    own->max_steps = steps_of(given);
+    return own;
+}
+
+static inline const options *read_options(options *own, const options *given)
+{
+    const options *o = check_options(own, given);
+    return o ? keep_options(own, o, given) : NULL;
 }
 
 /* What a later query of this pair may start from. */
@@ -470,17 +494,17 @@ static inline const cache *lender_of(const shape *a, const shape *b, const optio
 static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     if (!open_listed(q, a, b, lender_of(a, b, o, g->sign_only))) return FAULT;
-    if (q->glanced == UNCLEAR || (q->glanced && q->d.wild)) q->told = glance_in_frame(q, a, b, r);
+    const int boxes = g->sign_only && are_boxes(a, b);
+    if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && q->glanced != AIMED))
+        q->told = look_in_frame(q, g->max_steps, a, b, r);
     if (q->told) return BEYOND;
+    if (boxes && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     goal own;
     if (!is_scale_free(g)) {
         own = scaled(g, q->d.scale);
         g = &own;
     }
-    if (g->sign_only && are_boxes(a, b)) {
-        q->told = tell_by_axes(q, a, b, g, r);
-        if (!q->told && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
-    } else q->told = g->deep && tell_boxes(q, a, b, g, r);
+    if (g->deep) q->told = tell_boxes(q, a, b, g, r);
     if (q->told) return STILL;
     enum end end = walk(q, a, b, g, r);
     if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
@@ -539,12 +563,14 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
 GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
-    const options *o = read_options(&own, given);
+    const options *o = check_options(&own, given);
     search q;
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    if (list_both(&q, a, b, o) && !lender_of(a, b, o, 1)) q.glanced = glance(&q, a, b, out);
+    if (list_both(&q, a, b, o) && !lender_of(a, b, o, 1))
+        q.glanced = are_boxes(a, b) ? glance_at_boxes(&q, (int)steps_of(o), a, b, out) : glance(&q, a, b, out);
     if (q.glanced == TELLING) return out->status = GJK_DECIDED;
+    o = keep_options(&own, o, given);
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
               .within = radius * (1 - 16 * UNIT),

@@ -5,41 +5,47 @@
 #ifndef GJK_CORE_AXES_H
 #define GJK_CORE_AXES_H
 
-#include "plain.h"
+#include "glance.h"
 #include "touch.h"
 #include "zonotope.h"
 
 /* The boxes as they see each other, in lengths along their axes. Where a box's axes are not square to each other it is
  * no more than a guess. */
 typedef struct gauge {
-    zonotope z;  /* whose axes are of length 1 */
-    real off;    /* but for that, in squares */
+    vec u[AXES]; /* the axes, a's first, of length 1 */
+    vec uu[2];   /* their squares, by box, */
+    real off;    /* all off 1 by no more */
     vec e, f;    /* the halves of a and of b */
     vec unit[2]; /* 1 along an axis, in a box's own coordinates times their grain */
     vec t, s;    /* the way from a's middle to b's: along a's axes, and along b's */
     vec r[DIM];  /* r[i].c[j]: a's axis i along b's axis j */
+    int framed;  /* in the frame; else in the caller's lengths, of turned boxes only */
 } gauge;
 
 /* Bounds what a ball loses where axes are not of length 1 and square to each other, as a share: the squares of the axes
  * are off 1 by that, or their products off 0. */
 static inline real skew_of(const gauge *k, int at)
 {
-    const vec *u = k->z.u + DIM * at;
+    const vec *u = k->u + DIM * at;
     real skew = size(dot(u[0], u[1]));
     if (DIM > 2) skew += size(dot(u[0], u[DIM - 1])) + size(dot(u[1], u[DIM - 1]));
     return skew + (k->off + 64 * UNIT);
 }
 
-/* Axes whose squared length is off 1 by more are brought to length 1. */
-#define LENGTH_OFF (4096 * UNIT)
-
-/* 0: they are of too different lengths, or far from square to each other, where guesses are no good. */
-static APART int bring_to_length(gauge *k)
+/* 0: an axis is too long or too short to have been turned alone. */
+static inline int take_off(gauge *k)
 {
-    if (!is_fair(&k->z, 0) || !is_fair(&k->z, 1)) return 0;
+    k->off = 0;
+    EACH(k->off = larger(size(k->uu[0].c[i] - 1), k->off); k->off = larger(size(k->uu[1].c[i] - 1), k->off));
+    return k->off <= LENGTH_OFF;
+}
+
+/* To length 1. 0: the axes are far from square to each other, where guesses are no good. */
+static int bring_to_length(gauge *k)
+{
     for (int i = 0; i < AXES; i++) {
-        const real l = root(k->z.uu[i]);
-        k->z.u[i] = mul(k->z.u[i], 1 / l);
+        const real l = root(k->uu[i / DIM].c[i % DIM]);
+        k->u[i] = mul(k->u[i], 1 / l);
         (i < DIM ? &k->e : &k->f)->c[i % DIM] *= l;
         k->unit[i / DIM].c[i % DIM] /= l;
     }
@@ -47,19 +53,41 @@ static APART int bring_to_length(gauge *k)
     return skew_of(k, 0) + skew_of(k, 1) < (real)0x1p-10;
 }
 
-static inline int take_gauge(gauge *k, const difference *d)
+/* 0: there is none to reckon by. */
+static APART int take_gauge_in_frame(gauge *k, const difference *d)
 {
-    zonotope *z = &k->z;
-    take_axes(z, 0, &d->a);
-    take_axes(z, 1, &d->b);
-    k->off = 0;
-    EACH(k->e.c[i] = z->e[i]; k->f.c[i] = z->e[DIM + i]; k->unit[0].c[i] = z->level[0]; k->unit[1].c[i] = z->level[1]);
-    for (int i = 0; i < AXES; i++) k->off = larger(size(z->uu[i] - 1), k->off);
-    if (k->off > LENGTH_OFF && !bring_to_length(k)) return 0;
-    EACH(k->t.c[i] = dot(z->u[i], d->c); k->s.c[i] = dot(z->u[DIM + i], d->c);
-         for (int j = 0; j < DIM; j++) k->r[i].c[j] = dot(z->u[i], z->u[DIM + j]));
+    zonotope z;
+    take_axes(&z, 0, &d->a, level_of_map(&d->a));
+    take_axes(&z, 1, &d->b, level_of_map(&d->b));
+    k->framed = 1;
+    for (int i = 0; i < AXES; i++) k->u[i] = z.u[i];
+    EACH(k->uu[0].c[i] = z.uu[i]; k->uu[1].c[i] = z.uu[DIM + i]; k->e.c[i] = z.e[i]; k->f.c[i] = z.e[DIM + i];
+         k->unit[0].c[i] = z.level[0]; k->unit[1].c[i] = z.level[1]);
+    if (!take_off(k) && !(is_fair(&z, 0) && is_fair(&z, 1) && bring_to_length(k))) return 0;
+    EACH(k->t.c[i] = dot(k->u[i], d->c); k->s.c[i] = -dot(k->u[DIM + i], mul(d->c, -1)));
     return 1;
 }
+
+/* The same of boxes that see the way between them as t and s, and whose squared axes are known. */
+static inline int take_gauge(gauge *k, const difference *d, vec t, vec s, const vec uu[2])
+{
+    k->framed = 0;
+    EACH(for (int j = 0; j < DIM; j++) {
+        k->u[i].c[j] = d->a.posed ? d->a.m[DIM * j + i] : i == j;
+        k->u[DIM + i].c[j] = d->b.posed ? d->b.m[DIM * j + i] : i == j;
+    });
+    k->uu[0] = uu[0];
+    k->uu[1] = uu[1];
+    k->e = load(((const box *)d->a.data)->half);
+    k->f = load(((const box *)d->b.data)->half);
+    EACH(k->unit[0].c[i] = k->unit[1].c[i] = 1);
+    k->t = t;
+    k->s = s;
+    return take_off(k);
+}
+
+/* How high the first corner is, along the way from b to a, times the length of that, whose square is cc. */
+static inline real first_height(vec e, vec f, vec t, vec s, real cc) { return cc - (dot_size(e, t) + dot_size(f, s)); }
 
 static inline vec clamped(vec x, vec e)
 {
@@ -114,14 +142,16 @@ static inline int is_in_box(const body *k, vec x, vec *own)
     return r && same(mul(*own, k->grain), x);
 }
 
-/* The points x and y of the bodies, times their grain, are one, and nothing was rounded. */
+/* The points x and y of the bodies, times their grain, are one, and nothing was rounded. All sums of such are within
+ * sqrt(3) times the root of the glance's square. */
 static APART int is_one_point(const search *q, vec x, vec y, const shape *a, const shape *b)
 {
     simplex s;
+    const real power = 1 / leveler(q->d.doubt / (GLANCE_DOUBT / 2)); /* above half that root times 2 */
     s.n = 1;
     s.at[0] = 0;
     return is_in_box(&q->d.a, x, &s.slot[0].x) && is_in_box(&q->d.b, y, &s.slot[0].y) &&
-           are_corners_whole(&q->d, &s, a, b);
+           are_corners_whole(&q->d, &s, a, b, power);
 }
 
 /* The points x of a and y of b, lengths along their axes, are as good as one: that proves the boxes to meet if there is
@@ -129,6 +159,7 @@ static APART int is_one_point(const search *q, vec x, vec y, const shape *a, con
 static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, int in_b, const shape *a,
                             const shape *b, result *r)
 {
+    result told;
     const difference *d = &q->d;
     EACH(x.c[i] *= k->unit[0].c[i]; y.c[i] *= k->unit[1].c[i]);
     const vec w = sub(d->a.posed ? map(d->a.m, x) : x, add(d->b.posed ? map(d->b.m, y) : y, d->c));
@@ -136,15 +167,17 @@ static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, 
     const int one = !(deep > 0) && same(w, axis(0, 0)) && is_one_point(q, x, y, a, b);
     if (!(deep > 0) && !one) return 0;
     raise(q, q->v, spare(&q->s)->w);
-    bracket(r, d, q->lower, one ? 0 : -deep, a, b);
-    if (one) r->upper = smaller(r->upper, 0); /* also where it was rounded on the way out */
-    else if (!(r->upper < 0)) return 0;
-    if (in_b) place_common(r, q, &d->a, a, x);
-    else place_common(r, q, &d->b, b, y);
-    store(r->normal, q->normal);
-    r->steps = q->steps + 1;
-    r->supports = d->calls;
-    r->reserved = 0;
+    bracket(&told, d, q->lower, one ? 0 : -deep, a, b);
+    if (one) told.upper = smaller(told.upper, 0); /* also where it was rounded on the way out */
+    else if (!(told.upper < 0)) return 0;
+    told.value = told.upper;
+    if (in_b) place_common(&told, q, &d->a, a, x);
+    else place_common(&told, q, &d->b, b, y);
+    store(told.normal, q->normal);
+    told.steps = q->steps + 1;
+    told.supports = d->calls;
+    told.reserved = 0;
+    *r = told;
     return 1;
 }
 
@@ -165,15 +198,24 @@ static inline int try_of_b(search *q, const gauge *k, vec y, const shape *a, con
 
 /* ---- along the axes ---- */
 
-/* By how much the boxes reach into each other along each axis; below 0: they are apart along it. */
-static inline void reach_along(const gauge *k, real h[AXES])
+/* By how much the boxes reach into each other along an axis of a, which is looked at along b's; below 0: they are apart
+ * along it. */
+static inline real reach_along_a(gauge *k, int i)
 {
-    vec over = axis(0, 0);
-    EACH(h[i] = k->e.c[i] - size(k->t.c[i]); for (int j = 0; j < DIM; j++) {
-        h[i] += k->f.c[j] * size(k->r[i].c[j]);
-        over.c[j] += k->e.c[i] * size(k->r[i].c[j]);
-    });
-    EACH(h[DIM + i] = k->f.c[i] + over.c[i] - size(k->s.c[i]));
+    real h = k->e.c[i] - size(k->t.c[i]);
+    for (int j = 0; j < DIM; j++) {
+        k->r[i].c[j] = dot(k->u[i], k->u[DIM + j]);
+        h += k->f.c[j] * size(k->r[i].c[j]);
+    }
+    return h;
+}
+
+/* The same along an axis of b, once all of a have been looked at. */
+static inline real reach_along_b(const gauge *k, int j)
+{
+    real h = k->f.c[j] - size(k->s.c[j]);
+    for (int i = 0; i < DIM; i++) h += k->e.c[i] * size(k->r[i].c[j]);
+    return h;
 }
 
 static inline int least_of(const real *h, int n)
@@ -236,70 +278,145 @@ static inline vec nearest_on_edge_of_a(const gauge *k, int of_a, int of_b)
 
 /* ---- telling ---- */
 
-/* That they are apart, if the corner in the spare slot proves it. */
-static int tell_gap(search *q, const shape *a, const shape *b, const goal *g, result *r)
-{
-    q->way = q->v;
-    if (!is_proven_beyond(q, g->beyond)) return 0;
-    q->steps++;
-    spell_apart(q, a, b, r);
-    q->steps--;
-    return r->lower > 0;
-}
-
-/* The same of the corner along l, which seems to lead from one box to the other. If not, the walk starts from there. */
-static int try_along(search *q, vec l, const shape *a, const shape *b, const goal *g, result *r)
+/* The corner along l, which seems to lead from one box to the other, may prove them to be apart. If not, the walk
+ * starts from there. */
+HOT int try_along(search *q, vec l, int max_steps, const shape *a, const shape *b, result *r)
 {
     vertex p;
-    if (dot(l, q->d.c) > 0) l = mul(l, -1);
-    if (g->max_steps < 2 || !(peak(l) > 0) || !ask_on(&q->d, l, &p)) return 0;
+    if (max_steps < 2 || !(peak(l) > 0) || !seek_both(&q->d, l, &p)) return 0;
     q->steps++;
     q->v = l;
-    *spare(&q->s) = p;
-    return tell_gap(q, a, b, g, r);
+    q->glanced = AIMED;
+    evidence e = corner_shown(&q->d, l, &p);
+    p.w = e.w;
+    q->s.slot[0] = p; /* the spare one */
+    return tell_evidence(q, &e, l, &p, a, b, r);
 }
 
-/* So near contact heights in plain numbers, of a frame of size 1 to 2, are no guide. */
-#define REACH_DOUBT (32 * UNIT)
-
-/* Along which axis, or across which pair of them, the boxes seem to be apart, or else into each other by the least. */
-static int try_axes(search *q, const gauge *k, const shape *a, const shape *b, const goal *g, result *r)
+/* Reaching into each other by less, they may be apart. Nearer contact heights in plain numbers are no guide. */
+static inline real apart_by(const search *q, const shape *a, const shape *b)
 {
-    real h[AXES];
-    const real apart = -g->beyond - REACH_DOUBT;
-    reach_along(k, h);
+    return -(a->radius + b->radius) * q->d.scale - q->d.doubt;
+}
+
+/* What tells of a point of both, where there is no frame: the first corner, in the first slot, and bounds to be raised.
+ */
+static void know_first(search *q, const gauge *k)
+{
+    vertex *p = &q->s.slot[0];
+    clear(&q->s);
+    q->d.slack = 0;
+    q->d.a.norm = q->d.b.norm = 1; /* they are turned */
+    p->x = corner_of_box(q->d.a.data, k->t);
+    p->y = corner_of_box(q->d.b.data, mul(k->s, -1));
+    p->w = corner_shown(&q->d, q->v, p).w;
+}
+
+/* Of boxes that are not apart along any axis, as it seems, and reach into each other by that least height along one of
+ * them: whether there is a point of both. If not, the way across a pair of axes along which they seem to be apart; 0:
+ * there is none. */
+static APART int tell_inside(search *q, const gauge *k, const real h[AXES], vec *way, const shape *a, const shape *b,
+                             result *r)
+{
     const int least = least_of(h, AXES);
-    if (h[least] < apart) return try_along(q, k->z.u[least], a, b, g, r);
+    const real height = h[least];
+    const vec x = clamped(k->t, k->e), y = clamped(mul(k->s, -1), k->f);
+    *way = axis(0, 0);
+    if (!k->framed) know_first(q, k);
+    if (try_of_a(q, k, x, a, b, r) || try_of_b(q, k, y, a, b, r)) return 1;
 #if DIM == 3
-    real across[9], ll[9], lowest = h[least] * h[least];
+    real across[9], ll[9], lowest = height * height;
     int edges = -1;
     reach_across(k, across, ll);
     const int gap = least_of(across, 9);
-    if (across[gap] < apart) return try_along(q, cross(k->z.u[gap / 3], k->z.u[DIM + gap % 3]), a, b, g, r);
-    if (!(h[least] > REACH_DOUBT)) return 0;
+    if (across[gap] < apart_by(q, a, b)) {
+        *way = cross(k->u[gap / 3], k->u[DIM + gap % 3]);
+        *way = mul(*way, -signed_as(1, dot(*way, q->d.c)));
+        return 0;
+    }
     for (int i = 0; i < 9; i++) {
         if (!(across[i] * across[i] < lowest * ll[i]) || !(ll[i] > PARALLEL)) continue;
         lowest = across[i] * across[i] / ll[i];
         edges = i;
     }
-    if (edges >= 0) return try_of_a(q, k, nearest_on_edge_of_a(k, edges / 3, edges % 3), a, b, r);
+    if (edges >= 0 && height > q->d.doubt)
+        return try_of_a(q, k, nearest_on_edge_of_a(k, edges / 3, edges % 3), a, b, r);
 #endif
+    if (!(height > q->d.doubt)) return 0;
     return least < DIM ? try_of_b(q, k, foremost_of_b(k, least), a, b, r)
                        : try_of_a(q, k, foremost_of_a(k, least - DIM), a, b, r);
 }
 
-/* Whether they meet, of two boxes whose first corner is in the spare slot. 0: it is left to the walk, from there. */
-static APART int tell_by_axes(search *q, const shape *a, const shape *b, const goal *g, result *r)
+/* Whether they meet, of two boxes whose first corner shows nothing. */
+HOT int tell_by_axes(search *q, gauge *k, int max_steps, const shape *a, const shape *b, result *r)
+{
+    real h[AXES];
+    const real apart = apart_by(q, a, b);
+    vec way;
+    int at = 0;
+    for (; at < DIM; at++)
+        if ((h[at] = reach_along_a(k, at)) < apart) break;
+    for (; at >= DIM && at < AXES; at++)
+        if ((h[at] = reach_along_b(k, at - DIM)) < apart) break;
+    if (at < AXES) way = mul(k->u[at], -signed_as(1, at < DIM ? k->t.c[at] : k->s.c[at - DIM]));
+    else if (tell_inside(q, k, h, &way, a, b, r)) return 1;
+    return try_along(q, way, max_steps, a, b, r);
+}
+
+/* The same without a frame. If not, what was asked last is left in the first slot. */
+static APART enum glanced glance_along_axes(search *q, vec t, vec s, const vec uu[2], int max_steps, const shape *a,
+                                            const shape *b, result *r)
 {
     gauge k;
-    if (dot(q->v, spare(&q->s)->w) > 0 || !take_gauge(&k, &q->d)) return 0;
-    const vec x = clamped(k.t, k.e), y = clamped(mul(k.s, -1), k.f);
-    return try_of_a(q, &k, x, a, b, r) || try_of_b(q, &k, y, a, b, r) || try_axes(q, &k, a, b, g, r);
+    q->glanced = IN_VAIN;
+    if (take_gauge(&k, &q->d, t, s, uu) && tell_by_axes(q, &k, max_steps, a, b, r)) return TELLING;
+    if (q->glanced == IN_VAIN) know_first(q, &k);
+    return q->glanced;
 }
 
 static inline int are_boxes(const shape *a, const shape *b)
 {
     return a->support == pub(support_box) && b->support == pub(support_box);
+}
+
+/* Whether the first corner shows it, or else the axes, of two boxes, of which nothing more is known. */
+static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape *a, const shape *b, result *r)
+{
+    difference *d = &q->d;
+    stay_outside(d, a, b);
+    const vec v = mul(d->c, -1), t = plain_direction(&d->a, d->c), s = plain_direction(&d->b, v);
+    const box *of_a = d->a.data, *of_b = d->b.data;
+    const real cc = dot(v, v);
+    vec uu[2];
+    vertex *p = &q->s.slot[0];
+    start_glance(q, v);
+    if (!are_plain(cc, a, b) || !doubt_by_squares(d, cc, uu)) return UNCLEAR;
+    if (!(first_height(load(of_a->half), load(of_b->half), t, s, cc) > 0))
+        return glance_along_axes(q, t, mul(s, -1), uu, max_steps, a, b, r);
+    p->x = corner_of_box(of_a, t);
+    p->y = corner_of_box(of_b, s);
+    evidence e = corner_shown(d, v, p);
+    p->w = e.w;
+    return tell_evidence(q, &e, v, p, a, b, r) ? TELLING : IN_VAIN;
+}
+
+static APART int tell_by_axes_in_frame(search *q, int max_steps, const shape *a, const shape *b, result *r)
+{
+    gauge k;
+    const vec c = q->d.c;
+    if (!take_gauge_in_frame(&k, &q->d) || first_height(k.e, k.f, k.t, k.s, dot(c, c)) > 0) return 0;
+    return tell_by_axes(q, &k, max_steps, a, b, r);
+}
+
+/* A glance in the frame, where none told without. */
+static APART int look_in_frame(search *q, int max_steps, const shape *a, const shape *b, result *r)
+{
+    const real doubt = q->d.doubt;
+    q->d.doubt = doubt_in_frame(&q->d);
+    int told = glance_in_frame(q, a, b, r);
+    if (!told && are_boxes(a, b)) told = tell_by_axes_in_frame(q, max_steps, a, b, r);
+    q->d.doubt = doubt;
+    return told;
 }
 
 /* The walk takes up the last query's simplex after all. 0: something is wrong. */

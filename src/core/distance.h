@@ -41,13 +41,14 @@ enum end {
     FAULT   /* a support's answer was none */
 };
 
-/* How a glance at the first corner went: not cast; the sizes were none to tell by; it told nothing; or the answer. */
-enum glanced { UNTRIED, UNCLEAR, IN_VAIN, TELLING };
+/* How a glance at the first corner went: not cast; the sizes were none to tell by; it told nothing; it told nothing
+ * along an axis of two boxes either; or the answer. */
+enum glanced { UNTRIED, UNCLEAR, IN_VAIN, AIMED, TELLING };
 
 typedef struct search {
     difference d;
     int listed;           /* the corners of both bodies, before all else */
-    enum glanced glanced; /* IN_VAIN: the first corner is in s's first slot, in the caller's lengths */
+    enum glanced glanced; /* IN_VAIN, AIMED: the corner is in s's first slot, in the caller's lengths */
     simplex s;
     vec v;
     real vv;      /* v.v; REAL_MAX before there is a simplex */

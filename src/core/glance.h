@@ -15,31 +15,38 @@ typedef struct evidence {
     real lower, upper;
 } evidence;
 
-/* The corner of the points x and y, times their grain. */
-HOT evidence corner_shown(const difference *d, vec v, vec c, vec x, vec y)
+HOT evidence corner_shown(const difference *d, vec v, const vertex *p)
 {
+    const vec x = mul(p->x, d->a.grain), y = mul(p->y, d->b.grain);
     evidence e;
     e.a = d->a.posed ? map(d->a.m, x) : x;
     e.b = d->b.posed ? map(d->b.m, y) : y;
-    e.w = sub(e.a, add(e.b, c));
+    e.w = sub(e.a, add(e.b, d->c));
     e.height = dot(v, e.w);
     return e;
 }
 
-/* Of the body's map, times that power of two, the sum of squares, whose root bounds all norms of it, with its signs or
- * without; and the square of the set's reach, its points times that grain. */
-static inline real square_of_map(const body *k, real level)
+/* The squared lengths of the body's axes, its map times that power of two. */
+static inline vec squared_axes(const body *k, real level)
 {
-    if (!k->posed) return 1;
-    const real first = k->m[0] * level, second = k->m[1] * level;
-    real even = first * first, odd = second * second; /* side by side, where the machine can */
-    for (int i = 2; i + 1 < DIM * DIM; i += 2) {
-        const real one = k->m[i] * level, other = k->m[i + 1] * level;
-        even += one * one;
-        odd += other * other;
+    vec uu = axis(0, 1);
+    if (!k->posed) {
+        EACH(uu.c[i] = 1);
+        return uu;
     }
-    const real last = k->m[DIM * DIM - 1] * level;
-    return DIM % 2 ? even + odd + last * last : even + odd;
+    const real *m = k->m;
+    EACH(uu.c[i] = (m[i] * level) * (m[i] * level);
+         for (int j = 1; j < DIM; j++) uu.c[i] += (m[DIM * j + i] * level) * (m[DIM * j + i] * level));
+    return uu;
+}
+
+/* Of the body's map, the sum of squares, whose root bounds all norms of it, with its signs or without; and the square
+ * of the set's reach, its points times that grain. */
+static inline real square_of_map(const body *k, vec uu)
+{
+    real sum = uu.c[0];
+    REST(sum += uu.c[i]);
+    return k->posed ? sum : 1;
 }
 
 static inline real square_of_reach(const body *k, real grain)
@@ -56,100 +63,143 @@ static inline real square_of_reach(const body *k, real grain)
  * more than UNIT (30 A + 30 B + 20 |c|), and that below this many roundings of the root of A^2 + B^2 + c^2. */
 #define GLANCE_DOUBT (48 * UNIT)
 
-/* The bounds of the cores; square is A^2 + B^2 + c^2. */
-HOT void weigh_evidence(evidence *e, vec v, real square)
+/* The bounds of the cores. */
+HOT void weigh_evidence(evidence *e, vec v, real doubt)
 {
-    const real off = GLANCE_DOUBT * root(square);
     e->l = length(v);
-    e->lower = e->height / e->l - off;
-    e->upper = length(e->w) + off;
+    e->lower = e->height / e->l - doubt;
+    e->upper = length(e->w) + doubt;
 }
 
 /* Of sharp bodies, in the caller's lengths. */
-HOT void spell_sharp(const evidence *e, vec v, const shape *a, const shape *b, result *r)
+HOT void spell_sharp(const search *q, const evidence *e, vec v, const shape *a, const shape *b, result *r)
 {
     r->value = r->lower = e->lower;
     r->upper = e->upper;
     store(r->point_a, a->pose ? add(e->a, load(a->pose->p)) : e->a);
     store(r->point_b, b->pose ? add(e->b, load(b->pose->p)) : e->b);
     EACH(r->normal[i] = 0 - v.c[i] / e->l);
-    r->steps = 1;
-    r->supports = 2;
+    r->steps = q->steps + 1;
+    r->supports = q->d.calls;
     r->reserved = 0;
 }
 
-/* Of any, in the lengths of the search's frame. */
-static int spell_evidence(search *q, const evidence *e, vec v, vec x, vec y, const shape *a, const shape *b, result *r)
+/* Of any. 0: the radii meet, and nothing is changed. */
+static int spell_evidence(search *q, const evidence *e, vec v, const vertex *p, const shape *a, const shape *b,
+                          result *r)
 {
-    const closest pair = {.x = x, .y = y, .w = e->w};
+    const closest pair = {.x = mul(p->x, q->d.a.grain), .y = mul(p->y, q->d.b.grain), .w = e->w};
+    const real lower = q->lower;
+    const vec normal = q->normal;
+    result told;
     q->lower = e->lower;
     EACH(q->normal.c[i] = 0 - v.c[i] / e->l);
-    spell(q, a, b, e->upper, &pair, r);
-    r->value = r->lower;
-    r->steps = 1;
-    return r->lower > 0;
+    spell(q, a, b, e->upper, &pair, &told);
+    told.value = told.lower;
+    told.steps = q->steps + 1;
+    if (told.lower > 0) *r = told;
+    q->lower = lower;
+    q->normal = normal;
+    return told.lower > 0;
 }
 
-/* Of round bodies, in the caller's lengths: a frame of scale 1, for as long as that takes. 0: the radii meet, and r is
- * as it was. */
-static int spell_round(search *q, const evidence *e, vec v, const vertex *p, const shape *a, const shape *b, result *r)
+/* Whether it shows the bodies to be apart; of the corner p. */
+HOT int tell_evidence(search *q, evidence *e, vec v, const vertex *p, const shape *a, const shape *b, result *r)
 {
-    difference *d = &q->d;
-    result round;
+    const difference *d = &q->d;
+    if (!(e->height > 0)) return 0;
+    weigh_evidence(e, v, d->doubt);
+    if (!(e->lower > (a->radius + b->radius) * d->scale)) return 0;
+    if (a->radius + b->radius > 0 || d->wild || d->scale != 1) return spell_evidence(q, e, v, p, a, b, r);
+    spell_sharp(q, e, v, a, b, r);
+    return 1;
+}
+
+/* A frame of scale 1: the caller's lengths. Its doubt is not known yet. */
+HOT void stay_outside(difference *d, const shape *a, const shape *b)
+{
+    d->c = offset(a->pose, b->pose);
     d->scale = d->unscale = d->a.grain = d->b.grain = 1;
     d->wild = 0;
-    d->calls = 2;
-    q->steps = 1;
-    if (!spell_evidence(q, e, v, p->x, p->y, a, b, &round)) return 0;
-    *r = round;
-    return 1;
+}
+
+/* The doubt of bodies c apart, by its square, and the squares of their axes. 0: squares underflow, or overflow. */
+HOT int doubt_by_squares(difference *d, real cc, vec uu[2])
+{
+    uu[0] = squared_axes(&d->a, 1);
+    uu[1] = squared_axes(&d->b, 1);
+    const real map_a = square_of_map(&d->a, uu[0]), map_b = square_of_map(&d->b, uu[1]);
+    const real set_a = square_of_reach(&d->a, 1), set_b = square_of_reach(&d->b, 1);
+    const real square = map_a * set_a + map_b * set_b + cc;
+    d->doubt = GLANCE_DOUBT * root(square);
+    return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN &&
+           square < REAL_MAX / 4; /* the squares of w and of its height are up to three times that */
+}
+
+/* The square of the way between the bodies does not underflow, and their radii are plain. */
+HOT int are_plain(real cc, const shape *a, const shape *b)
+{
+    return cc > 1 / PLAIN && a->radius >= 0 && b->radius >= 0 && a->radius + b->radius < PLAIN;
+}
+
+/* Along v, and nothing is known yet. */
+HOT void start_glance(search *q, vec v)
+{
+    q->v = v;
+    q->lower = -REAL_MAX;
+    q->normal = axis(0, 1);
+    q->steps = 0;
+    q->d.calls = 2;
 }
 
 /* Whether the first corner shows it, of two bodies listed, of which nothing more is known. */
 static inline enum glanced glance(search *q, const shape *a, const shape *b, result *r)
 {
     difference *d = &q->d;
-    const vec c = offset(a->pose, b->pose), v = mul(c, -1);
-    const real cc = dot(c, c);
+    stay_outside(d, a, b);
+    const vec v = mul(d->c, -1);
+    const real cc = dot(v, v);
+    vec uu[2];
     vertex *p = &q->s.slot[0];
-    if (!(cc > 1 / PLAIN) || !(a->radius >= 0 && b->radius >= 0 && a->radius + b->radius < PLAIN)) return UNCLEAR;
-    if (!farthest_plain(&d->a, c, FIRST_SIGHT, &p->x) || !farthest_plain(&d->b, v, FIRST_SIGHT, &p->y)) return UNCLEAR;
-    evidence e = corner_shown(d, v, c, p->x, p->y);
+    if (!are_plain(cc, a, b)) return UNCLEAR;
+    if (!farthest_plain(&d->a, d->c, FIRST_SIGHT, &p->x) || !farthest_plain(&d->b, v, FIRST_SIGHT, &p->y))
+        return UNCLEAR;
+    evidence e = corner_shown(d, v, p);
     p->w = e.w;
+    start_glance(q, v);
     if (!(e.height > 0)) return IN_VAIN;
-    const real map_a = square_of_map(&d->a, 1), map_b = square_of_map(&d->b, 1);
-    const real set_a = square_of_reach(&d->a, 1), set_b = square_of_reach(&d->b, 1);
-    if (!(smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN)) return UNCLEAR;
-    const real square = map_a * set_a + map_b * set_b + cc;
-    if (!(square < REAL_MAX / 4)) return UNCLEAR; /* the squares of w and of its height are up to three times that */
-    weigh_evidence(&e, v, square);
-    if (!(e.lower > a->radius + b->radius)) return IN_VAIN;
-    if (a->radius + b->radius > 0) return spell_round(q, &e, v, p, a, b, r) ? TELLING : IN_VAIN;
-    spell_sharp(&e, v, a, b, r);
-    return TELLING;
+    if (!doubt_by_squares(d, cc, uu)) return UNCLEAR;
+    return tell_evidence(q, &e, v, p, a, b, r) ? TELLING : IN_VAIN;
 }
 
 /* The square of how far the body reaches from its position, in the frame. */
 static real square_in_frame(const body *k)
 {
     const real level = k->posed ? leveler(k->norm) : 1;
-    return square_of_map(k, level) * square_of_reach(k, k->grain / level);
+    return square_of_map(k, squared_axes(k, level)) * square_of_reach(k, k->grain / level);
 }
 
-/* The same in the frame, of the corner in the spare slot. */
-static APART int glance_in_frame(search *q, const shape *a, const shape *b, result *r)
+/* The doubt as a glance has it, in the frame. */
+static real doubt_in_frame(const difference *d)
 {
-    const difference *d = &q->d;
+    const real square = square_in_frame(&d->a) + square_in_frame(&d->b) + dot(d->c, d->c);
+    return GLANCE_DOUBT * root(square) + (d->wild ? d->lost : 0);
+}
+
+/* The same of the corner in the spare slot, in the frame, with that doubt. */
+static int glance_in_frame(search *q, const shape *a, const shape *b, result *r)
+{
     const vertex *p = spare(&q->s);
-    const vec x = mul(p->x, d->a.grain), y = mul(p->y, d->b.grain), normal = q->normal;
-    const real lower = q->lower, square = square_in_frame(&d->a) + square_in_frame(&d->b);
-    evidence e = corner_shown(d, q->v, d->c, x, y);
-    if (!(e.height > 0)) return 0;
-    weigh_evidence(&e, q->v, square + dot(d->c, d->c));
-    if (e.lower > 0 && spell_evidence(q, &e, q->v, x, y, a, b, r)) return 1;
-    q->lower = lower;
-    q->normal = normal;
-    return 0;
+    evidence e = corner_shown(&q->d, q->v, p);
+    return tell_evidence(q, &e, q->v, p, a, b, r);
+}
+
+/* The bodies' points farthest along v toward each other. */
+static inline int seek_both(difference *d, vec v, vertex *p)
+{
+    if (d->wild) return ask(d, v, p);
+    d->calls += 2;
+    return farthest_plain(&d->a, mul(v, -1), CAREFUL, &p->x) && farthest_plain(&d->b, v, CAREFUL, &p->y);
 }
 
 #endif

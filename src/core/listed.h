@@ -115,12 +115,18 @@ static APART int settle_listed(difference *d, const shape *a, const shape *b)
 
 /* ---- asking ---- */
 
+/* The frame's direction as a body of plain sizes sees it. */
+HOT vec plain_direction(const body *k, vec dir)
+{
+    if (k->posed) dir = pull(k->m, dir);
+    return dir.c[0] == 0 && !(peak(dir) > 0) ? axis(0, 1) : dir; /* as levelled has it */
+}
+
 /* The body's corner farthest along the frame's direction, of corners that are known to be numbers or are found to be,
  * and within their reach. */
 HOT int farthest_plain(const body *k, vec dir, enum care care, vec *x)
 {
-    if (k->posed) dir = pull(k->m, dir);
-    if (dir.c[0] == 0 && !(peak(dir) > 0)) dir = axis(0, 1); /* as levelled has it */
+    dir = plain_direction(k, dir);
     if (k->asked == AS_BOX) {
         *x = corner_of_box(k->data, dir);
         return 1;
@@ -237,10 +243,11 @@ static int open_listed(search *q, const shape *a, const shape *b, const cache *k
         if (reopen_listed(q, k)) return 1;
         blank(q);
     }
-    q->v = first_direction(&q->d);
     vertex *p = spare(&q->s);
-    if (q->glanced != IN_VAIN || q->d.wild) return ask_anew(&q->d, q->v, q->glanced != UNTRIED, p);
-    q->d.calls += 2;
+    if (q->glanced != AIMED || q->d.wild) q->v = first_direction(&q->d);
+    if (q->glanced < IN_VAIN || q->d.wild) return ask_anew(&q->d, q->v, q->glanced != UNTRIED, p);
+    q->steps = q->glanced == AIMED;
+    q->d.calls = 2 + 2 * q->steps;
     p->w = mul(p->w, q->d.scale);
     return 1;
 }

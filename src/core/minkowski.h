@@ -53,7 +53,8 @@ typedef struct difference {
     body a, b;
     vec c, c_low;        /* and what rounding took from it */
     real scale, unscale; /* powers of two */
-    real doubt;          /* rounding, as derived above */
+    real doubt;          /* rounding, as derived above; and what is */
+    real lost;           /* to underflow, where sizes are wild */
     real slack;          /* what the supports may fall short beyond that, by the caller's word */
     int wild;            /* sizes so large or small that directions need care */
     int loose;           /* a reach was surveyed with slack, which makes it none for other queries */
@@ -113,6 +114,12 @@ static inline int seek(difference *d, body *k, vec v, enum care care, vec *x)
     *x = k->asked == AS_BOX ? corner_of_box(k->data, dir) : nth_of(&k->list, farthest_apart(&k->list, dir, care));
     return fits(k, *x);
 }
+
+/* The squared length of an axis that was turned, and not scaled, is off 1 by no more. */
+#define LENGTH_OFF (4096 * UNIT)
+
+/* Brings the body's map to a norm from 1 to 2; it is 1 of a turn, whose norm may be just below. */
+static inline real level_of_map(const body *k) { return k->posed ? leveler(k->norm * (1 + LENGTH_OFF)) : 1; }
 
 HOT vec place(const body *k, vec x)
 {
@@ -277,12 +284,13 @@ static int settle(difference *d, real slack)
     a *= d->scale;
     b *= d->scale;
     c *= d->scale;
-    d->doubt = doubt_of(d, a, b, c);
+    d->lost = 0;
     if (d->wild) { /* products that underflow here, and in the supports where reaches are faint */
-        if (whole < REAL_MIN) d->doubt += 64 * TINY * d->scale;
-        if (faint(far_a)) d->doubt += 64 * TINY * d->scale * larger(1, d->a.stretch);
-        if (faint(far_b)) d->doubt += 64 * TINY * d->scale * larger(1, d->b.stretch);
+        if (whole < REAL_MIN) d->lost += 64 * TINY * d->scale;
+        if (faint(far_a)) d->lost += 64 * TINY * d->scale * larger(1, d->a.stretch);
+        if (faint(far_b)) d->lost += 64 * TINY * d->scale * larger(1, d->b.stretch);
     }
+    d->doubt = doubt_of(d, a, b, c) + d->lost;
     d->slack = 0; /* and no 0 times infinity */
     if (slack > 0)
         d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 256 * UNIT);

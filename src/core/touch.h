@@ -254,7 +254,7 @@ static int is_blurred(const spans *w)
 
 /* ---- the same in plain numbers, of corners with so few digits that nothing is rounded ---- */
 
-/* Of binary places, in the frame: a map's and a point's, so that their products' sums are exact; and a
+/* Of binary places, in a frame of that size: a map's and a point's, so that their products' sums are exact; and a
  * corner's, so that determinants are. */
 #define SHORT ((MANTISSA - 1) / 2)
 #define SHORTER ((MANTISSA - 4) / DIM)
@@ -270,20 +270,20 @@ static inline int is_short(real x, int places, real power)
 static int is_map_short(const body *k)
 {
     int r = 1;
-    real power = 2 / leveler(k->norm);
+    real power = 2 / level_of_map(k);
     for (int i = 0; i < DIM * DIM && k->posed; i++) r &= is_short(k->m[i], SHORT, power);
     return r;
 }
 
-/* So are the simplex's points of the body, before such a map, and they came there whole. Those of a box differ in
- * signs. */
-static inline int are_points_short(const body *k, const simplex *s, size_t member)
+/* So are the simplex's points of the body, before such a map, where all sums are within twice that power, and they came
+ * there whole. Those of a box differ in signs. */
+static inline int are_points_short(const body *k, const simplex *s, size_t member, real power)
 {
     int r = 1, n = k->asked == AS_BOX ? 1 : s->n;
-    real power = leveler(k->norm) / 2;
+    real share = level_of_map(k) / 2 * power;
     for (int j = 0; j < n; j++) {
         vec x = member_of(corner(s, j), member), y = mul(x, k->grain);
-        EACH(r &= is_short(y.c[i], SHORT, power) & ((y.c[i] != 0) | (x.c[i] == 0)));
+        EACH(r &= is_short(y.c[i], SHORT, share) & ((y.c[i] != 0) | (x.c[i] == 0)));
     }
     return r;
 }
@@ -299,11 +299,11 @@ static inline int are_corners_short(const simplex *s)
 }
 
 /* So is the way between the positions, which came to the frame whole, with nothing rounded off. */
-static inline int is_way_short(const difference *d, const shape *a, const shape *b)
+static inline int is_way_short(const difference *d, const shape *a, const shape *b, real power)
 {
     const vec c = offset(a->pose, b->pose), low = offset_low(a->pose, b->pose);
     int r = 1;
-    EACH(r &= is_short(d->c.c[i], 2 * SHORT, 1) & is_whole(c.c[i], d->c.c[i]) & (low.c[i] == 0));
+    EACH(r &= is_short(d->c.c[i], 2 * SHORT, power) & is_whole(c.c[i], d->c.c[i]) & (low.c[i] == 0));
     return r;
 }
 
@@ -348,11 +348,13 @@ static int weigh_plainly(const simplex *s, real weight[DIM + 1])
 #endif
 }
 
-/* corner_of places the simplex's corners without rounding, for certain. */
-static int are_corners_whole(const difference *d, const simplex *s, const shape *a, const shape *b)
+/* corner_of places the simplex's corners without rounding, for certain; all its sums are within twice that power of
+ * two, in the frame within 2. */
+static int are_corners_whole(const difference *d, const simplex *s, const shape *a, const shape *b, real power)
 {
-    if (!is_way_short(d, a, b)) return 0;
-    if (!are_points_short(&d->a, s, offsetof(vertex, x)) || !are_points_short(&d->b, s, offsetof(vertex, y))) return 0;
+    if (!is_way_short(d, a, b, power)) return 0;
+    if (!are_points_short(&d->a, s, offsetof(vertex, x), power)) return 0;
+    if (!are_points_short(&d->b, s, offsetof(vertex, y), power)) return 0;
     if (!is_map_short(&d->a) || !is_map_short(&d->b)) return 0;
     for (int i = 0; i < s->n && d->wild; i++)
         if (!is_map_whole(&d->a, a, corner(s, i)->x) || !is_map_whole(&d->b, b, corner(s, i)->y)) return 0;
@@ -366,7 +368,7 @@ static int holds_origin_plainly(const difference *d, simplex *s, const shape *a,
     real share[DIM + 1];
     int low = 0, high = 0;
     unsigned mask = 0;
-    if (!are_corners_short(s) || !weigh_plainly(s, share) || !are_corners_whole(d, s, a, b)) return 0;
+    if (!are_corners_short(s) || !weigh_plainly(s, share) || !are_corners_whole(d, s, a, b, 1)) return 0;
     for (int i = 0; i < s->n; i++) {
         low |= share[i] < 0;
         high |= share[i] > 0;

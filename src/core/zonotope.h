@@ -12,7 +12,7 @@
 
 /* A - B: the points of the sum of s_k e_k u_k with s_k from -1 to 1, minus c. A's axes come first. */
 typedef struct zonotope {
-    vec u[AXES]; /* each box's map has a norm from 1 to 2 */
+    vec u[AXES]; /* each box's map has a norm from 1 to 2, to rounding */
     real e[AXES], uu[AXES];
     real level[2]; /* the power of two by which a box's axes are more than its map's, and its halves less */
     vec c, c_low;
@@ -26,11 +26,10 @@ typedef struct pair_of_axes {
     real size; /* bounds the product of the axes' lengths */
 } pair_of_axes;
 
-/* The axes of one box, and how far it reaches along them. */
-static inline void take_axes(zonotope *z, int box_at, const body *k)
+/* The axes of one box, its map brought to that level, and how far it reaches along them. */
+static inline void take_axes(zonotope *z, int box_at, const body *k, real level)
 {
     const box *of = k->data;
-    const real level = k->posed ? leveler(k->norm) : 1;
     vec *u = z->u + DIM * box_at;
     real *e = z->e + DIM * box_at, *uu = z->uu + DIM * box_at;
     z->level[box_at] = level;
@@ -61,8 +60,8 @@ static inline int take_boxes(zonotope *z, const difference *d)
     z->c = d->c;
     z->c_low = d->c_low;
     z->far = spread(d->c);
-    take_axes(z, 0, &d->a);
-    take_axes(z, 1, &d->b);
+    take_axes(z, 0, &d->a, level_of_map(&d->a));
+    take_axes(z, 1, &d->b, level_of_map(&d->b));
     for (int k = 0; k < AXES; k++) z->far += z->e[k] * ((z->uu[k] + 1) / 2);
     return is_fair(z, 0) & is_fair(z, 1);
 }
