@@ -48,7 +48,8 @@ static inline const options *check_options(options *own, const options *given)
         o = own;
     }
     int fine = is_length(o->abs_tol) & is_length(o->rel_tol) & is_length(o->cutoff) & is_length(o->slack);
-    return fine & (o->tight <= 1) ? o : NULL;
+    fine &= o->tight <= 1;
+    return fine ? o : NULL;
 }
 
 /* The caller's own are copied before the first callback, which may change them. */
