@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* One box turns and drifts past another, a little at each frame. With a cache each query starts where the last one
+/* One hull turns and drifts past another, a little at each frame. With a cache each query starts where the last one
  * ended; without, each starts afresh. The answers agree, the work does not. */
 #include <gjk/gjk3.h>
 #include <math.h>
@@ -19,9 +19,14 @@ static void turn(gjk3_pose *pose, double angle, double drift)
 
 int main(void)
 {
-    const gjk3_box box_a = {{1, 0.7, 1.2}}, box_b = {{0.5, 0.9, 0.6}};
+    static const double wedge[6][3] = {{-1, -0.7, -1}, {-1, 0.7, -1},  {1, -0.7, -1},
+                                       {1, 0.7, -1},   {1, -0.7, 1.2}, {1, 0.7, 1.2}};
+    static const double gem[6][3] = {{0.5, 0, 0}, {-0.5, 0, 0}, {0, 0.9, 0}, {0, -0.9, 0}, {0, 0, 0.6}, {0, 0, -0.6}};
+    gjk3_points hull_a = {.v = wedge[0], .count = 6}, hull_b = {.v = gem[0], .count = 6};
+    hull_a.reach = gjk3_points_reach(&hull_a);
+    hull_b.reach = gjk3_points_reach(&hull_b);
     gjk3_pose moving;
-    const gjk3_shape a = {gjk3_support_box, &box_a, NULL, 0}, b = {gjk3_support_box, &box_b, &moving, 0};
+    const gjk3_shape a = {gjk3_support_points, &hull_a, NULL, 0}, b = {gjk3_support_points, &hull_b, &moving, 0};
 
     gjk3_cache cache = {0};
     gjk3_options warm = {0};

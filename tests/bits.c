@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x04c3da83d7ea5ff7, 0xaecd6516bb4ece28, 0x773e64c6f05e6d21};
+static const uint64_t known[3] = {0x53ca709d0cbcaa2a, 0x9c78153995c9397a, 0xa2d68a84b7c9b189};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xb49653603c657d63, 0x14fb5221570e82d2, 0x2cf8eae3c8122f21};
+static const uint64_t known[3] = {0x9885c25c41fd45e2, 0xd8eca6a3b1206ae9, 0x3840a6f559d4bcbc};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x4ccb3c4b2fb959d2, 0x39ae7fddc3e27f00, 0x51e4cc029cd00ba3};
+static const uint64_t known[3] = {0xca529ee45957ef52, 0x42844186894bfcff, 0x089d166f6f9a7453};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x31cf1196cc064896, 0x51161173c0402ae0, 0x66e68bf852163f64};
+static const uint64_t known[3] = {0x48bd02a8c83e585d, 0x0684adfe487ca805, 0x5d4676d7048862cd};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -48,7 +48,8 @@ static int open_both(void)
 {
     static const options none;
     q.d.calls = 0;
-    return list_both(&q, &shapes[0], &shapes[1], &none) && open_listed(&q, &shapes[0], &shapes[1], NULL);
+    return list_both(&q, &shapes[0], &shapes[1], &none) && settle_both(&q, &shapes[0], &shapes[1]) &&
+           open_listed(&q, NULL);
 }
 
 /* Two boxes, each of a size of its own, out in the world, under maps that are no rotations; or under none. */
@@ -605,6 +606,58 @@ static void axes_need_no_frame(void **state)
     assert_true(told_apart + told_meeting > PAIRS * 9 / 10 && told_apart > PAIRS / 10 && told_meeting > PAIRS / 10);
 }
 
+/* Nor do axes of length 1 that are far from square to each other: what a frame makes of them does not depend on that.
+ */
+static void skew_axes_need_no_frame(void **state)
+{
+    (void)state;
+    state_of_draws = 14;
+    told_apart = told_meeting = aimed = in_vain = 0;
+    for (int k = 0; k < PAIRS; k++) {
+        for (int i = 0; i < 2; i++) {
+            for (int j = 0; j < DIM; j++) {
+                boxes[i].half[j] = any_real((real)0.1, 1);
+                poses[i].p[j] = any_real(0, 3);
+            }
+            draw_turn(poses[i].m);
+            for (int j = 0; j < DIM; j++) {
+                double l = 0;
+                for (int row = 0; row < DIM; row++) {
+                    poses[i].m[DIM * row + j] += any_real(0, 1);
+                    l += (double)poses[i].m[DIM * row + j] * (double)poses[i].m[DIM * row + j];
+                }
+                for (int row = 0; row < DIM; row++) poses[i].m[DIM * row + j] /= (real)sqrt(l);
+            }
+            shapes[i] = (shape){pub(support_box), &boxes[i], &poses[i], 0};
+        }
+        compare_glances();
+    }
+    assert_true(told_apart > PAIRS / 10);
+}
+
+/* What two turned boxes tell of their distance is found without a walk, as a rule: one corner proves it. */
+static void a_gap_needs_no_walk(void **state)
+{
+    long apart = 0, at_once = 0;
+    (void)state;
+    state_of_draws = 15;
+    for (int k = 0; k < PAIRS; k++) {
+        result r;
+        for (int i = 0; i < 2; i++) {
+            for (int j = 0; j < DIM; j++) {
+                boxes[i].half[j] = any_real((real)0.1, 1);
+                poses[i].p[j] = any_real(0, 3);
+            }
+            draw_turn(poses[i].m);
+            shapes[i] = (shape){pub(support_box), &boxes[i], &poses[i], 0};
+        }
+        assert_int_equal(pub(distance)(&shapes[0], &shapes[1], NULL, &r), GJK_OK);
+        apart += r.lower > 0;
+        at_once += r.lower > 0 && r.steps == 1 && r.supports <= 4;
+    }
+    assert_true(apart > PAIRS / 4 && at_once > apart * 95 / 100);
+}
+
 /* Squares of lengths near the root of the largest number: sets off their own positions, in a unit so large, answer as
  * they do in their own. */
 static void a_glance_sees_no_overflow(void **state)
@@ -758,6 +811,8 @@ int main(void)
         cmocka_unit_test(headings_save_calls),
         cmocka_unit_test(a_glance_needs_no_frame),
         cmocka_unit_test(axes_need_no_frame),
+        cmocka_unit_test(skew_axes_need_no_frame),
+        cmocka_unit_test(a_gap_needs_no_walk),
         cmocka_unit_test(a_glance_sees_no_overflow),
         cmocka_unit_test(spans_know_how_far_they_are_off),
         cmocka_unit_test(a_sign_is_certain),

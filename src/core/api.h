@@ -7,6 +7,7 @@
 #include "axes.h"
 #include "boxes.h"
 #include "fine.h"
+#include "gap.h"
 #include "glance.h"
 #include "intersect.h"
 #include "plain.h"
@@ -491,22 +492,32 @@ static inline const cache *lender_of(const shape *a, const shape *b, const optio
     return o->cache && !(sign_only && are_boxes(a, b)) && lends(o->cache, a, b) ? o->cache : NULL;
 }
 
+/* How deep two boxes are, if that is asked, or how far apart. */
+static inline int tell_extent(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    if (g->deep && ask_centres(q) && tell_boxes(q, a, b, g, r)) return 1;
+    if (!tell_gap(q, a, b, g, r)) return 0;
+    if (o->cache) remember(o->cache, q, a, b);
+    return 1;
+}
+
 /* The everyday way, of sets whose corners are listed. How far it led; FAULT: nowhere. q->told: to the answer. */
 static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
-    if (!open_listed(q, a, b, lender_of(a, b, o, g->sign_only))) return FAULT;
-    const int boxes = g->sign_only && are_boxes(a, b);
-    if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && q->glanced != AIMED))
-        q->told = look_in_frame(q, g->max_steps, a, b, r);
-    if (q->told) return BEYOND;
-    if (boxes && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     goal own;
+    const int boxes = are_boxes(a, b);
+    if (!settle_both(q, a, b)) return FAULT;
     if (!is_scale_free(g)) {
         own = scaled(g, q->d.scale);
         g = &own;
     }
-    if (g->deep) q->told = tell_boxes(q, a, b, g, r);
+    if (boxes && !g->sign_only) q->told = tell_extent(q, a, b, o, g, r);
     if (q->told) return STILL;
+    if (!open_listed(q, lender_of(a, b, o, g->sign_only))) return FAULT;
+    if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && g->sign_only && q->glanced != AIMED))
+        q->told = look_in_frame(q, g->max_steps, a, b, r);
+    if (q->told) return BEYOND;
+    if (boxes && g->sign_only && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     enum end end = walk(q, a, b, g, r);
     if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
     int open = end == OPEN && q->steps < g->max_steps;

@@ -53,12 +53,21 @@ static int bring_to_length(gauge *k)
     return skew_of(k, 0) + skew_of(k, 1) < (real)0x1p-10;
 }
 
-/* 0: there is none to reckon by. */
+/* Brings the box's axes to length 1 if they are as long as each other, and a power of two: however skew they are, which
+ * the norm of their map depends on. */
+static real level_of_axes(const body *k)
+{
+    const real level = level_of_map(k), first = squared_axes(k, level).c[0];
+    return first > UNIT ? level * leveler(root(first) * (1 + LENGTH_OFF)) : level;
+}
+
+/* 0: there is none to reckon by; of a box that is but a point, for one. */
 static APART int take_gauge_in_frame(gauge *k, const difference *d)
 {
     zonotope z;
-    take_axes(&z, 0, &d->a, level_of_map(&d->a));
-    take_axes(&z, 1, &d->b, level_of_map(&d->b));
+    if (d->a.size == 0 || d->b.size == 0) return 0;
+    take_axes(&z, 0, &d->a, level_of_axes(&d->a));
+    take_axes(&z, 1, &d->b, level_of_axes(&d->b));
     k->framed = 1;
     for (int i = 0; i < AXES; i++) k->u[i] = z.u[i];
     EACH(k->uu[0].c[i] = z.uu[i]; k->uu[1].c[i] = z.uu[DIM + i]; k->e.c[i] = z.e[i]; k->f.c[i] = z.e[DIM + i];
@@ -144,14 +153,31 @@ static inline int is_in_box(const body *k, vec x, vec *own)
 
 /* The points x and y of the bodies, times their grain, are one, and nothing was rounded. All sums of such are within
  * sqrt(3) times the root of the glance's square. */
-static APART int is_one_point(const search *q, vec x, vec y, const shape *a, const shape *b)
+static APART int is_one_point(search *q, int framed, vec x, vec y, const shape *a, const shape *b)
 {
     simplex s;
+    if (!framed) {
+        q->d.a.norm = q->d.a.posed ? stretch(q->d.a.m) : 1;
+        q->d.b.norm = q->d.b.posed ? stretch(q->d.b.m) : 1;
+    }
     const real power = 1 / leveler(q->d.doubt / (GLANCE_DOUBT / 2)); /* above half that root times 2 */
     s.n = 1;
     s.at[0] = 0;
     return is_in_box(&q->d.a, x, &s.slot[0].x) && is_in_box(&q->d.b, y, &s.slot[0].y) &&
            are_corners_whole(&q->d, &s, a, b, power);
+}
+
+/* The first corner, asked for only now, in the spare slot. 0: there is none. */
+static int know_first(search *q, const gauge *k)
+{
+    if (k->framed) return ask_centres(q);
+    clear(&q->s);
+    vertex *p = spare(&q->s);
+    p->x = corner_of_box(q->d.a.data, k->t);
+    p->y = corner_of_box(q->d.b.data, mul(k->s, -1));
+    p->w = corner_shown(&q->d, q->v, p).w;
+    q->d.slack = 0;
+    return q->pending = 1;
 }
 
 /* The points x of a and y of b, lengths along their axes, are as good as one: that proves the boxes to meet if there is
@@ -164,8 +190,8 @@ static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, 
     EACH(x.c[i] *= k->unit[0].c[i]; y.c[i] *= k->unit[1].c[i]);
     const vec w = sub(d->a.posed ? map(d->a.m, x) : x, add(d->b.posed ? map(d->b.m, y) : y, d->c));
     const real deep = room > 0 ? room * (1 - skew_of(k, in_b)) - spread(w) - d->doubt : 0;
-    const int one = !(deep > 0) && same(w, axis(0, 0)) && is_one_point(q, x, y, a, b);
-    if (!(deep > 0) && !one) return 0;
+    const int one = !(deep > 0) && same(w, axis(0, 0)) && is_one_point(q, k->framed, x, y, a, b);
+    if ((!(deep > 0) && !one) || (!q->pending && !know_first(q, k))) return 0;
     raise(q, q->v, spare(&q->s)->w);
     bracket(&told, d, q->lower, one ? 0 : -deep, a, b);
     if (one) told.upper = smaller(told.upper, 0); /* also where it was rounded on the way out */
@@ -290,6 +316,7 @@ HOT int try_along(search *q, vec l, int max_steps, const shape *a, const shape *
     evidence e = corner_shown(&q->d, l, &p);
     p.w = e.w;
     q->s.slot[0] = p; /* the spare one */
+    q->pending = 1;
     return tell_evidence(q, &e, l, &p, a, b, r);
 }
 
@@ -297,19 +324,6 @@ HOT int try_along(search *q, vec l, int max_steps, const shape *a, const shape *
 static inline real apart_by(const search *q, const shape *a, const shape *b)
 {
     return -(a->radius + b->radius) * q->d.scale - q->d.doubt;
-}
-
-/* What tells of a point of both, where there is no frame: the first corner, in the first slot, and bounds to be raised.
- */
-static void know_first(search *q, const gauge *k)
-{
-    vertex *p = &q->s.slot[0];
-    clear(&q->s);
-    q->d.slack = 0;
-    q->d.a.norm = q->d.b.norm = 1; /* they are turned */
-    p->x = corner_of_box(q->d.a.data, k->t);
-    p->y = corner_of_box(q->d.b.data, mul(k->s, -1));
-    p->w = corner_shown(&q->d, q->v, p).w;
 }
 
 /* Of boxes that are not apart along any axis, as it seems, and reach into each other by that least height along one of
@@ -322,7 +336,6 @@ static APART int tell_inside(search *q, const gauge *k, const real h[AXES], vec 
     const real height = h[least];
     const vec x = clamped(k->t, k->e), y = clamped(mul(k->s, -1), k->f);
     *way = axis(0, 0);
-    if (!k->framed) know_first(q, k);
     if (try_of_a(q, k, x, a, b, r) || try_of_b(q, k, y, a, b, r)) return 1;
 #if DIM == 3
     real across[9], ll[9], lowest = height * height;
@@ -370,7 +383,7 @@ static APART enum glanced glance_along_axes(search *q, vec t, vec s, const vec u
     gauge k;
     q->glanced = IN_VAIN;
     if (take_gauge(&k, &q->d, t, s, uu) && tell_by_axes(q, &k, max_steps, a, b, r)) return TELLING;
-    if (q->glanced == IN_VAIN) know_first(q, &k);
+    if (!q->pending) know_first(q, &k);
     return q->glanced;
 }
 

@@ -151,8 +151,8 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
     vec x, y;
     twin deep;
     difference *d = &q->d;
-    if (d->a.asked != AS_BOX || d->b.asked != AS_BOX || !(g->radius < PLAIN)) return 0;
-    if (q->s.n <= DIM && dot(q->v, spare(&q->s)->w) > 0) return 0; /* apart, as their first corner shows */
+    if (!(g->radius < PLAIN)) return 0;
+    if (dot(q->v, spare(&q->s)->w) > 0) return 0; /* apart, as their first corner shows */
     know_offset(d, a, b);
     if (!take_boxes(&z, d) || !find_lows(&z, &f)) return 0;
     const wall *low = lowest_wall(&z, &f, &deep);

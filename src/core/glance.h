@@ -149,6 +149,7 @@ HOT void start_glance(search *q, vec v)
     q->lower = -REAL_MAX;
     q->normal = axis(0, 1);
     q->steps = 0;
+    q->pending = 0;
     q->d.calls = 2;
 }
 

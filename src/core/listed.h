@@ -233,23 +233,41 @@ static int reopen_listed(search *q, const cache *k)
     return q->inside > q->d.doubt;
 }
 
-/* Two bodies listed, from the points of the last query, which the cache lends, or from nothing. 0: there is something
- * wrong. */
-static int open_listed(search *q, const shape *a, const shape *b, const cache *k)
+/* The frame of two bodies listed. 0: there is something wrong. */
+static inline int settle_both(search *q, const shape *a, const shape *b)
 {
     blank(q);
-    if (!settle_plain(&q->d, a, b) && !settle_listed(&q->d, a, b)) return 0;
+    return settle_plain(&q->d, a, b) || settle_listed(&q->d, a, b);
+}
+
+/* The first corner, along the line of centres. */
+static int ask_centres(search *q)
+{
+    q->v = first_direction(&q->d);
+    q->pending = ask_anew(&q->d, q->v, 0, spare(&q->s));
+    return q->pending;
+}
+
+/* And where the walk starts: from the points of the last query, which the cache lends, or from a corner that has been
+ * asked for, or from nothing. 0: there is something wrong. */
+static int open_listed(search *q, const cache *k)
+{
+    const int steps = q->steps;
     if (k) {
+        blank(q);
+        q->steps = steps;
         if (reopen_listed(q, k)) return 1;
         blank(q);
+        q->steps = steps;
     }
+    if (q->pending) return 1;
     vertex *p = spare(&q->s);
     if (q->glanced != AIMED || q->d.wild) q->v = first_direction(&q->d);
-    if (q->glanced < IN_VAIN || q->d.wild) return ask_anew(&q->d, q->v, q->glanced != UNTRIED, p);
+    if (q->glanced < IN_VAIN || q->d.wild) return q->pending = ask_anew(&q->d, q->v, q->glanced != UNTRIED, p);
     q->steps = q->glanced == AIMED;
     q->d.calls = 2 + 2 * q->steps;
     p->w = mul(p->w, q->d.scale);
-    return 1;
+    return q->pending = 1;
 }
 
 #endif

@@ -250,6 +250,15 @@ static inline void spell(const search *q, const shape *a, const shape *b, real u
     r->reserved = 0;
 }
 
+/* The same, and how far apart they are: as the pair is, which lost low to rounding. */
+static inline void spell_distance(const search *q, const shape *a, const shape *b, const goal *g, real upper,
+                                  const closest *p, vec low, result *r)
+{
+    twin l = length_to_twice(p->w, low), value = sum_of(l.high, -g->radius);
+    r->value = (value.high + (value.low + l.low)) * q->d.unscale;
+    spell(q, a, b, upper, p, r);
+}
+
 /* The walk came so far with a gap that rounding does not blur, and this is a pair as near as v. */
 static inline int is_evident(const search *q, const goal *g, enum end end, const closest *p, real upper)
 {
@@ -300,9 +309,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
     vec low = lost_of_pair(&q->d, &p);
     if (end == STILL && !q->repeated && is_passed_over(q, &p, low)) return 0;
     if (end == STILL && g->deep) point_along(q, add(p.w, low));
-    twin l = length_to_twice(p.w, low), value = sum_of(l.high, -g->radius);
-    r->value = (value.high + (value.low + l.low)) * q->d.unscale;
-    spell(q, a, b, upper, &p, r);
+    spell_distance(q, a, b, g, upper, &p, low, r);
     return 1;
 }
 
