@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import pytest
 
 import gjk
@@ -15,9 +17,13 @@ def at(x):
     return [c for i in range(3) for c in (*TURN[3 * i : 3 * i + 3], x if i == 0 else 0.5)]
 
 
+def corners_of(*half):
+    return gjk.Points([[s * h for s, h in zip(signs, half, strict=True)] for signs in product((-1, 1), repeat=3)])
+
+
 @precisions
 def test_a_warm_query_needs_fewer_calls(precision):
-    a, b, cache = gjk.Box((1, 1, 1)), gjk.Box((0.5, 0.7, 0.9)), gjk.Cache()
+    a, b, cache = corners_of(1, 1, 1), corners_of(0.5, 0.7, 0.9), gjk.Cache()
     warm = [gjk.distance(a, b.at(at(4 + i / 1000)), precision=precision, cache=cache).supports for i in range(20)]
     cold = gjk.distance(a, b.at(at(4)), precision=precision).supports
     assert warm[0] == cold
