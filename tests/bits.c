@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x53ca709d0cbcaa2a, 0x9c78153995c9397a, 0xa2d68a84b7c9b189};
+static const uint64_t known[3] = {0xae77dfcf66c1956a, 0x16060bb4d1e2cdec, 0x53b90eb09e057113};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x9885c25c41fd45e2, 0xd8eca6a3b1206ae9, 0x3840a6f559d4bcbc};
+static const uint64_t known[3] = {0xfe0df447db9e91b1, 0x3e8eee700602a52d, 0x3f06fd9bd99a33ba};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xca529ee45957ef52, 0x42844186894bfcff, 0x089d166f6f9a7453};
+static const uint64_t known[3] = {0xa1045ccd82ec9e50, 0x4516404d140faba7, 0x1ff4e309eaf98632};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x48bd02a8c83e585d, 0x0684adfe487ca805, 0x5d4676d7048862cd};
+static const uint64_t known[3] = {0x7c3c7b1e8f0d6266, 0xd8f8b1cacc3e2378, 0xe144612a3cc40600};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -37,13 +37,15 @@ static inline real below_scaled(real radius, real level, real up)
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
 static void bracket(result *r, const difference *d, real lower, real upper, const shape *a, const shape *b)
 {
-    int sharp = !(a->radius > 0 || b->radius > 0);
-    if (sharp && !d->wild) {
-        r->lower = lower * d->unscale;
-        r->upper = upper * d->unscale;
+    const real radius = a->radius + b->radius;
+    const int sharp = !(radius > 0);
+    if (!d->wild && (sharp || !unruly(radius))) {
+        const real near = lower * d->unscale, far = upper * d->unscale;
+        r->lower = sharp ? near : below_sum(near, -a->radius, -b->radius);
+        r->upper = sharp ? far : -below_sum(-far, a->radius, b->radius);
         return;
     }
-    real level = level_of(d, a->radius + b->radius, 0), down = level * d->unscale, up = 1 / level;
+    real level = level_of(d, radius, 0), down = level * d->unscale, up = 1 / level;
     real near = lower * down, far = upper * down;
     if (!sharp) {
         near = below_sum(near, -above_scaled(a->radius, level, up), -above_scaled(b->radius, level, up));
@@ -55,6 +57,13 @@ static void bracket(result *r, const difference *d, real lower, real upper, cons
     if (size(r->upper) < REAL_MIN && far != 0) r->upper += 2 * TINY;
 }
 
+/* How far apart, the radii taken off what the cores are apart, which is known to twice the digits: rounded once. */
+HOT real gap_of(const difference *d, twin apart, const shape *a, const shape *b)
+{
+    const twin radii = sum_of(a->radius * d->scale, b->radius * d->scale), gap = sum_of(apart.high, -radii.high);
+    return (gap.high + (gap.low + (apart.low - radii.low))) * d->unscale;
+}
+
 /* At the edge of the numbers where these end before the body does. */
 static vec in_range(vec x)
 {
@@ -62,24 +71,29 @@ static vec in_range(vec x)
     return x;
 }
 
-/* The body's point, x times its grain, in the world, times level; down leads there from the search's frame. */
+/* What lies there from the body's position, in the world, times level; down leads there from the search's frame. */
+HOT vec moved(const pose *o, vec x, real down, real level)
+{
+    x = mul(x, down);
+    return o ? add(x, mul(load(o->p), level)) : x;
+}
+
+/* The same of the body's point, x times its grain. */
 HOT vec in_world(const body *k, const pose *o, vec x, real down, real level)
 {
-    if (!k->posed) return mul(x, down);
-    return add(mul(map(k->m, x), down), mul(load(o->p), level));
+    return moved(o, mapped(k, x), down, level);
 }
 
 static inline real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
 
-/* The points x and y of the bodies, times their grain, way apart in the frame, from the cores' to the shapes': each
- * moves toward the other by its radius, or, where the radii reach across, both move to one point between. */
-static APART void place_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b,
-                               int deep)
+/* The points x and y, from the bodies' positions, way apart in the frame, from the cores' to the shapes': each moves
+ * toward the other by its radius, or, where the radii reach across, both move to one point between. */
+HOT void move_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b, int deep)
 {
     real radius = a->radius + b->radius, far = larger(far_out(a), far_out(b));
     int plain = !q->d.wild && far < PLAIN && radius < PLAIN;
     real level = plain ? 1 : level_of(&q->d, radius, far), down = level * q->d.unscale, l = length(way);
-    vec on_a = in_world(&q->d.a, a->pose, x, down, level), on_b = in_world(&q->d.b, b->pose, y, down, level);
+    vec on_a = moved(a->pose, x, down, level), on_b = moved(b->pose, y, down, level);
     if (deep > 1 || (deep && r->upper <= 0)) {
         on_a = add(on_a, mul(q->normal, a->radius * level));
         on_b = sub(on_b, mul(q->normal, b->radius * level));
@@ -93,6 +107,13 @@ static APART void place_points(result *r, const search *q, vec x, vec y, vec way
     }
     store(r->point_a, plain ? on_a : in_range(mul(on_a, 1 / level)));
     store(r->point_b, plain ? on_b : in_range(mul(on_b, 1 / level)));
+}
+
+/* The same of the bodies' own points, times their grain. */
+static APART void place_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b,
+                               int deep)
+{
+    move_points(r, q, mapped(&q->d.a, x), mapped(&q->d.b, y), way, a, b, deep);
 }
 
 /* The same of sharp bodies apart, of plain sizes in plain places, as a rule. */

@@ -11,6 +11,7 @@
 #include "glance.h"
 #include "intersect.h"
 #include "plain.h"
+#include "thin.h"
 #include "widen.h"
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
@@ -235,8 +236,7 @@ static void answer(const search *q, const shape *a, const shape *b, const goal *
     twin l = refine(q, weight);
     if (l.high > high) l = (twin){high, 0};
     if (l.high < low) l = (twin){low, 0};
-    twin value = sum_of(l.high, -g->radius * q->d.scale);
-    r->value = (value.high + (value.low + l.low)) * q->d.unscale;
+    r->value = gap_of(&q->d, l, a, b);
 }
 
 /* Takes the answer further where rounding stood in its way: exactly for known corners, in double for float's smooth
@@ -486,6 +486,12 @@ static inline int list_both(search *q, const shape *a, const shape *b, const opt
     return q->listed;
 }
 
+/* The corners of both are known, and are all that counts. */
+static inline int are_exact(const search *q, const shape *a, const shape *b, const options *o)
+{
+    return EXACT && (q->listed || (o->slack == 0 && has_corners(a) && has_corners(b)));
+}
+
 /* What the cache lends to the everyday way. The axes of boxes need none. */
 static inline const cache *lender_of(const shape *a, const shape *b, const options *o, int sign_only)
 {
@@ -512,6 +518,10 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
         g = &own;
     }
     if (boxes && !g->sign_only) q->told = tell_extent(q, a, b, o, g, r);
+    if (q->thin == UNCLEAR) {
+        q->thin = tell_thin_in_frame(q, a, b, g, r) ? TELLING : IN_VAIN;
+        q->told = q->thin == TELLING;
+    }
     if (q->told) return STILL;
     if (!open_listed(q, lender_of(a, b, o, g->sign_only))) return FAULT;
     if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && g->sign_only && q->glanced != AIMED))
@@ -531,8 +541,11 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
 static int reply_to(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end *end,
                     result *r)
 {
-    q->told = q->d.calls = 0;
-    *end = q->listed ? answer_plainly(q, a, b, o, g, r) : FAULT;
+    q->d.calls = 0;
+    q->thin = q->listed && are_thin(&q->d) ? tell_thin(q, a, b, g, r) : UNTRIED;
+    q->told = q->thin == TELLING;
+    *end = q->told ? STILL : q->listed ? answer_plainly(q, a, b, o, g, r) : FAULT;
+    if (q->thin == TELLING && o->cache) o->cache->count = 0; /* there is nothing that a formula would start from */
     if (q->told) return 0;
     if (!sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
     *end = solve(q, a, b, o, g, *end, r);
@@ -548,20 +561,20 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     search q;
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
+    list_both(&q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
               .radius = radius,
               .abs_tol = o->abs_tol,
               .rel_tol = o->rel_tol,
-              .exact = EXACT && o->slack == 0 && has_corners(a) && has_corners(b),
+              .exact = are_exact(&q, a, b, o),
               .max_steps = (int)o->max_steps};
     if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
     g.early = radius > 0 || o->abs_tol > 0 || o->rel_tol > 0;
 
     enum end end;
-    list_both(&q, a, b, o);
     int bad = reply_to(&q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.upper = larger(r.upper, 0);
@@ -579,7 +592,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     search q;
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    if (list_both(&q, a, b, o) && !lender_of(a, b, o, 1))
+    if (list_both(&q, a, b, o) && !are_thin(&q.d) && !lender_of(a, b, o, 1))
         q.glanced = are_boxes(a, b) ? glance_at_boxes(&q, (int)steps_of(o), a, b, out) : glance(&q, a, b, out);
     if (q.glanced == TELLING) return out->status = GJK_DECIDED;
     o = keep_options(&own, o, given);
@@ -590,7 +603,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .abs_tol = -1, /* never */
               .early = radius > 0,
               .sign_only = 1,
-              .exact = EXACT && o->slack == 0 && has_corners(a) && has_corners(b),
+              .exact = are_exact(&q, a, b, o),
               .max_steps = (int)o->max_steps};
 
     enum end end;
@@ -621,6 +634,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     search q;
     result r;
     if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
+    list_both(&q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
@@ -628,14 +642,13 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
               .abs_tol = o->abs_tol,
               .rel_tol = o->rel_tol,
               .early = o->abs_tol > 0 || o->rel_tol > 0,
-              .exact = EXACT && o->slack == 0 && has_corners(a) && has_corners(b),
+              .exact = are_exact(&q, a, b, o),
               .deep = 1,
               .max_steps = (int)o->max_steps};
     g.tight = g.exact && o->tight;
     if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
 
     enum end end;
-    list_both(&q, a, b, o);
     int bad = reply_to(&q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.value = smaller(larger(r.value, r.lower), r.upper);

@@ -188,7 +188,7 @@ static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, 
     result told;
     const difference *d = &q->d;
     EACH(x.c[i] *= k->unit[0].c[i]; y.c[i] *= k->unit[1].c[i]);
-    const vec w = sub(d->a.posed ? map(d->a.m, x) : x, add(d->b.posed ? map(d->b.m, y) : y, d->c));
+    const vec w = corner_at(d, x, y);
     const real deep = room > 0 ? room * (1 - skew_of(k, in_b)) - spread(w) - d->doubt : 0;
     const int one = !(deep > 0) && same(w, axis(0, 0)) && is_one_point(q, k->framed, x, y, a, b);
     if ((!(deep > 0) && !one) || (!q->pending && !know_first(q, k))) return 0;

@@ -166,8 +166,7 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
     q->normal = low->n;
     EACH(x.c[i] = low->s[i] * (z.e[i] * z.level[0]); y.c[i] = -low->s[DIM + i] * (z.e[DIM + i] * z.level[1]));
     bracket(r, d, lower, upper, a, b);
-    twin value = sum_of(-deep.high, -g->radius);
-    r->value = (value.high + (value.low - deep.low)) * d->unscale;
+    r->value = gap_of(d, (twin){-deep.high, -deep.low}, a, b);
     place_points(r, q, x, y, low->n, a, b, 2);
     store(r->normal, q->normal);
     r->steps = q->steps;

@@ -48,6 +48,7 @@ enum glanced { UNTRIED, UNCLEAR, IN_VAIN, AIMED, TELLING };
 typedef struct search {
     difference d;
     int listed;           /* the corners of both bodies, before all else */
+    enum glanced thin;    /* how it went with thin cores, without a frame */
     enum glanced glanced; /* IN_VAIN, AIMED: the corner is in s's first slot, in the caller's lengths */
     simplex s;
     vec v;

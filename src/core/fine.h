@@ -310,8 +310,7 @@ static APART int tell_pair(search *q, const shape *a, const shape *b, const goal
     int deep = g->deep && upper < 0; /* but only the radii overlap */
     if (!(lower > 0) && !(upper < 0 && (!g->deep || l.high > 2 * low))) return 0;
     if (!g->sign_only && !(low + high <= UNIT / 4 * size_at(q))) return 0;
-    twin sum = sum_of(radius_a, radius_b), gap = sum_of(l.high, -sum.high);
-    r->value = (gap.high + (gap.low + (l.low - sum.low))) * q->d.unscale;
+    r->value = gap_of(&q->d, l, a, b);
     r->lower = rescaled(lower, q->d.unscale, -1);
     r->upper = rescaled(upper, q->d.unscale, 1);
     EACH(q->normal.c[i] = 0 - e.way.high.c[i] / l.high);

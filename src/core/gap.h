@@ -160,7 +160,7 @@ static inline closest pair_at(const difference *d, const gauge *k, vec x, vec y)
 {
     closest p = {.x_low = axis(0, 0), .y_low = axis(0, 0)};
     EACH(p.x.c[i] = x.c[i] * k->unit[0].c[i]; p.y.c[i] = y.c[i] * k->unit[1].c[i]);
-    p.w = sub(d->a.posed ? map(d->a.m, p.x) : p.x, add(d->b.posed ? map(d->b.m, p.y) : p.y, d->c));
+    p.w = corner_at(d, p.x, p.y);
     return p;
 }
 
@@ -227,7 +227,7 @@ static int tell_nearest(search *q, const gauge *k, vec x, vec y, const shape *a,
     know_offset(d, a, b);
     const vec low = lost_of_pair(d, &p);
     if (!are_nearest(q, k, l, x, y, &p, low)) return 0;
-    spell_distance(q, a, b, g, upper, &p, low, r);
+    spell_distance(q, a, b, upper, &p, low, r);
     r->steps = q->steps + 1;
     return 1;
 }

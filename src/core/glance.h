@@ -19,8 +19,8 @@ HOT evidence corner_shown(const difference *d, vec v, const vertex *p)
 {
     const vec x = mul(p->x, d->a.grain), y = mul(p->y, d->b.grain);
     evidence e;
-    e.a = d->a.posed ? map(d->a.m, x) : x;
-    e.b = d->b.posed ? map(d->b.m, y) : y;
+    e.a = mapped(&d->a, x);
+    e.b = mapped(&d->b, y);
     e.w = sub(e.a, add(e.b, d->c));
     e.height = dot(v, e.w);
     return e;
@@ -163,6 +163,8 @@ static inline enum glanced glance(search *q, const shape *a, const shape *b, res
     vec uu[2];
     vertex *p = &q->s.slot[0];
     if (!are_plain(cc, a, b)) return UNCLEAR;
+    know_reach_listed(&d->a);
+    know_reach_listed(&d->b);
     if (!farthest_plain(&d->a, d->c, FIRST_SIGHT, &p->x) || !farthest_plain(&d->b, v, FIRST_SIGHT, &p->y))
         return UNCLEAR;
     evidence e = corner_shown(d, v, p);

@@ -128,6 +128,14 @@ HOT vec map(const real *m, vec x)
     return r;
 }
 
+/* What m x sums, without the signs. */
+static inline vec map_size(const real *m, vec x)
+{
+    vec r;
+    EACH(r.c[i] = dot_size(load(m + DIM * i), x));
+    return r;
+}
+
 /* The transpose of m, times d: a direction seen from the set's own frame. */
 HOT vec pull(const real *m, vec d)
 {

@@ -7,7 +7,7 @@
 
 #include "answer.h"
 
-/* The body's corners and, but for a box, their reach, without a call. 0: it has none that can be listed, or not that
+/* The body's corners, without a call; of a cloud with their reach. 0: it has none that can be listed, or not that
  * reach, or the data describe no set. */
 static inline int list_corners(body *k, const shape *s)
 {
@@ -29,25 +29,29 @@ static inline int list_corners(body *k, const shape *s)
     } else if (s->support == pub(support_segment)) {
         const segment *e = s->data;
         if (!e) return 0;
-        k->list = list_of(e->v, 2);
+        k->list = (list){e->v[0], 2, DIM, 0};
 #if DIM == 3
     } else if (s->support == pub(support_triangle)) {
         const triangle *t = s->data;
         if (!t) return 0;
-        k->list = list_of(t->v, 3);
+        k->list = (list){t->v[0], 3, DIM, 0};
 #endif
     } else {
         k->list = (list){nothing, 1, DIM, padded(0)};
         if (s->support != pub(support_origin)) return 0;
     }
-    know_reach(k, k->list.reach);
     return 1;
 }
 
-/* And the box's reach. */
+/* And how far they reach. */
 static inline void know_reach_listed(body *k)
 {
-    if (k->asked == AS_BOX) know_reach(k, at_most(load(((const box *)k->data)->half)));
+    if (k->asked == AS_BOX) {
+        know_reach(k, at_most(load(((const box *)k->data)->half)));
+        return;
+    }
+    if (k->list.reach == 0) k->list.reach = reach_of(k->list.v, k->list.count);
+    know_reach(k, k->list.reach);
 }
 
 /* 0: it is not of plain sizes. A number that is none may pass; then no corner has one, and nothing is told. */

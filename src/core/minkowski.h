@@ -121,11 +121,13 @@ static inline int seek(difference *d, body *k, vec v, enum care care, vec *x)
 /* Brings the body's map to a norm from 1 to 2; it is 1 of a turn, whose norm may be just below. */
 static inline real level_of_map(const body *k) { return k->posed ? leveler(k->norm * (1 + LENGTH_OFF)) : 1; }
 
-HOT vec place(const body *k, vec x)
-{
-    x = mul(x, k->grain);
-    return k->posed ? map(k->m, x) : x;
-}
+/* The body's point x, times its grain, from the body's position. */
+HOT vec mapped(const body *k, vec x) { return k->posed ? map(k->m, x) : x; }
+
+HOT vec place(const body *k, vec x) { return mapped(k, mul(x, k->grain)); }
+
+/* The corner of the difference that two points make, times their grain; or as they are in the sets. */
+HOT vec corner_at(const difference *d, vec x, vec y) { return sub(mapped(&d->a, x), add(mapped(&d->b, y), d->c)); }
 
 HOT vec corner_of(const difference *d, vec x, vec y) { return sub(place(&d->a, x), add(place(&d->b, y), d->c)); }
 

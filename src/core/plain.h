@@ -171,7 +171,7 @@ static inline void place_in_parts(const body *k, vec x, vec low, vec *upper, vec
     *upper = x;
     *rest = low;
     if (!k->posed || k->size == 0) return; /* then all is 0 */
-    real of_map = above(k->norm), of_point = above(k->reach * k->grain);
+    real of_map = above(k->norm), of_point = above(peak(x));
     vec x_up;
     EACH(x_up.c[i] = upper_digits(x.c[i], of_point));
     vec x_rest = add(sub(x, x_up), low);
@@ -197,7 +197,7 @@ static inline closest pair_of(const search *q)
     weigh_walked(q, weight);
     p.x = fine_blend(&q->s, weight, offsetof(vertex, x), d->a.grain, &p.x_low);
     p.y = fine_blend(&q->s, weight, offsetof(vertex, y), d->b.grain, &p.y_low);
-    p.w = sub(d->a.posed ? map(d->a.m, p.x) : p.x, add(d->b.posed ? map(d->b.m, p.y) : p.y, d->c));
+    p.w = corner_at(d, p.x, p.y);
     return p;
 }
 
@@ -251,11 +251,10 @@ static inline void spell(const search *q, const shape *a, const shape *b, real u
 }
 
 /* The same, and how far apart they are: as the pair is, which lost low to rounding. */
-static inline void spell_distance(const search *q, const shape *a, const shape *b, const goal *g, real upper,
-                                  const closest *p, vec low, result *r)
+static inline void spell_distance(const search *q, const shape *a, const shape *b, real upper, const closest *p,
+                                  vec low, result *r)
 {
-    twin l = length_to_twice(p->w, low), value = sum_of(l.high, -g->radius);
-    r->value = (value.high + (value.low + l.low)) * q->d.unscale;
+    r->value = gap_of(&q->d, length_to_twice(p->w, low), a, b);
     spell(q, a, b, upper, p, r);
 }
 
@@ -309,7 +308,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
     vec low = lost_of_pair(&q->d, &p);
     if (end == STILL && !q->repeated && is_passed_over(q, &p, low)) return 0;
     if (end == STILL && g->deep) point_along(q, add(p.w, low));
-    spell_distance(q, a, b, g, upper, &p, low, r);
+    spell_distance(q, a, b, upper, &p, low, r);
     return 1;
 }
 

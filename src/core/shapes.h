@@ -116,13 +116,15 @@ GJK_API real pub(support_box)(const void *data, const real dir[DIM], real out[DI
     return at_most(load(b->half));
 }
 
-/* n corners, packed. */
-static inline list list_of(const real (*v)[DIM], size_t n)
+/* Of n corners, packed. */
+static inline real reach_of(const real *v, size_t n)
 {
     real reach = 0;
-    for (size_t i = 0; i < n; i++) reach = larger(at_most(load(v[i])), reach);
-    return (list){v[0], n, DIM, reach};
+    for (size_t i = 0; i < n; i++) reach = larger(at_most(load(v + DIM * i)), reach);
+    return reach;
 }
+
+static inline list list_of(const real (*v)[DIM], size_t n) { return (list){v[0], n, DIM, reach_of(v[0], n)}; }
 
 /* Among n corners. */
 static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])
