@@ -24,7 +24,7 @@ static const char *const placed_name[PLACES] = {"on one spot", "one in the other
                                                 "anywhere"};
 
 static exact best;
-static truth nearly, spot;
+static truth nearly;
 static pair p;
 static faults found;
 static long at;
@@ -279,37 +279,10 @@ static void draw_boxes(draws *d, enum turned how, enum placed where)
 
 /* ---- the laws ---- */
 
-static quad off_truth(quad x) { return positive(x > nearly.upper ? x - nearly.upper : nearly.lower - x); }
-
-static quad along_normal(const body *b, const real *normal, int sign)
-{
-    quad n[DIM], x[DIM], sum = 0;
-    for (int i = 0; i < DIM; i++) {
-        n[i] = (quad)normal[i] * (quad)sign;
-    }
-    farthest_of_body(b, no_origin, 1, n, x);
-    for (int i = 0; i < DIM; i++) {
-        sum += n[i] * x[i];
-    }
-    return sum / norm(n);
-}
-
-static quad stands_off(const body *b, const real *point)
-{
-    static body dot;
-    start_body(&dot, POINTS);
-    dot.count = 1;
-    memcpy(dot.v[0], point, sizeof dot.v[0]);
-    bind(&dot);
-    find_truth(&spot, &dot, b, 0);
-    settle(&spot, &best, &dot, b);
-    return spot.lower;
-}
-
 static void check_points(const V(result) * r)
 {
     const quad most = (quad)(POINT_ERROR * U * (scale() + far_out()));
-    quad gap = 0, off_a = stands_off(&p.a, r->point_a), off_b = stands_off(&p.b, r->point_b);
+    quad gap = 0, off_a = stands_off_body(&best, &p.a, r->point_a), off_b = stands_off_body(&best, &p.b, r->point_b);
     for (int i = 0; i < DIM; i++) {
         quad x = quad_abs((quad)r->point_a[i] - (quad)r->point_b[i] + (quad)r->value * (quad)r->normal[i]);
         gap = x > gap ? x : gap;
@@ -322,9 +295,9 @@ static void check_points(const V(result) * r)
 /* Whether it was told without a step. */
 static int check(const V(result) * r)
 {
-    quad n[DIM], along, width = (quad)r->upper - (quad)r->lower, error = off_truth((quad)r->value);
+    quad n[DIM], along, width = (quad)r->upper - (quad)r->lower, error = off_truth(&nearly, (quad)r->value);
     hold("the bracket holds", r, (quad)r->lower <= nearly.upper && nearly.lower <= (quad)r->upper,
-         in_u(quad_abs(off_truth((quad)r->lower)) + quad_abs(off_truth((quad)r->upper))));
+         in_u(quad_abs(off_truth(&nearly, (quad)r->lower)) + quad_abs(off_truth(&nearly, (quad)r->upper))));
     hold("the value is in the bracket", r, r->lower <= r->value && r->value <= r->upper, 0);
     if (r->steps > 0 || nearly.lower > 0 || !(scale() * U >= (double)REAL_MIN)) {
         return 0; /* the search's answers have tests of their own */
@@ -411,7 +384,7 @@ static int check_sign(const V(result) * r)
     quad n[DIM], along, off_a, off_b, off, above;
     int by_axes;
     hold("the bracket holds", r, (quad)r->lower <= nearly.upper && nearly.lower <= (quad)r->upper,
-         in_u(quad_abs(off_truth((quad)r->lower)) + quad_abs(off_truth((quad)r->upper))));
+         in_u(quad_abs(off_truth(&nearly, (quad)r->lower)) + quad_abs(off_truth(&nearly, (quad)r->upper))));
     if (!(scale() * U >= (double)REAL_MIN)) {
         return 0;
     }
@@ -423,8 +396,8 @@ static int check_sign(const V(result) * r)
     along = -along_normal(&p.a, r->normal, 1) - along_normal(&p.b, r->normal, -1);
     hold("the normal realises lower", r, in_u((quad)r->lower - along) <= (double)UNIT_ERROR,
          in_u((quad)r->lower - along));
-    off_a = stands_off(&p.a, r->point_a);
-    off_b = stands_off(&p.b, r->point_b);
+    off_a = stands_off_body(&best, &p.a, r->point_a);
+    off_b = stands_off_body(&best, &p.b, r->point_b);
     off = off_a > off_b ? off_a : off_b;
     /* what the walk tells of an overlap is no better than its bracket, and as good as its maps */
     by_axes = r->steps <= 2 && sort != turned_name[UNLIKE];

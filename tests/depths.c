@@ -90,7 +90,7 @@ static figures figures_of[FAMILIES];
 static long pairs_per_family = 200, boxes = 1500;
 static uint64_t seed = 1;
 static exact best;
-static truth nearly, after, spot;
+static truth nearly, after;
 static int sure;  /* whether the truth is exact, or good to 28 digits */
 static int known; /* whether both have known corners, and so their truth */
 static int sharp; /* and no radius either */
@@ -141,9 +141,6 @@ static void hold(figures *s, enum law law, const V(result) * r, int holds, doubl
     fprintf(stderr, "\n  ");
     print_case(stderr, "intersect", &p->a, &p->b);
 }
-
-/* How far x is off the truth. */
-static quad off_truth(const truth *t, quad x) { return x > t->upper ? x - t->upper : x < t->lower ? t->lower - x : 0; }
 
 /* By how much the bracket misses the truth. */
 static quad missed(const V(result) * r)
@@ -292,18 +289,6 @@ static void check_touch(figures *s, const V(result) * r)
 
 /* ---- the laws of the points, of bodies that meet ---- */
 
-static quad stands_off(const body *b, const real *point)
-{
-    static body dot;
-    start_body(&dot, POINTS);
-    dot.count = 1;
-    memcpy(dot.v[0], point, sizeof dot.v[0]);
-    bind(&dot);
-    find_truth(&spot, &dot, b, 0);
-    settle(&spot, &best, &dot, b);
-    return spot.lower;
-}
-
 /* How far the body reaches beyond its point along sign n. */
 static quad beyond_point(const body *b, const real *point, const real *normal, int sign)
 {
@@ -320,7 +305,7 @@ static quad beyond_point(const body *b, const real *point, const real *normal, i
 
 static void check_points(figures *s, const V(result) * r)
 {
-    quad gap = 0, off[2] = {stands_off(&p->a, r->point_a), stands_off(&p->b, r->point_b)};
+    quad gap = 0, off[2] = {stands_off_body(&best, &p->a, r->point_a), stands_off_body(&best, &p->b, r->point_b)};
     quad deep[2] = {beyond_point(&p->a, r->point_a, r->normal, 1), beyond_point(&p->b, r->point_b, r->normal, -1)};
     quad most = (quad)(allowed(r, POINT_ERROR) + slant(r));
     for (int i = 0; i < DIM; i++) {

@@ -47,4 +47,35 @@ static inline int settle(truth *t, exact *e, const body *a, const body *b)
     return 1;
 }
 
+/* How far x is from what the truth is known to be. */
+static inline quad off_truth(const truth *t, quad x) { return positive(x > t->upper ? x - t->upper : t->lower - x); }
+
+/* How far the point stands off the body. */
+static inline quad stands_off_body(exact *e, const body *b, const real *point)
+{
+    static body dot;
+    static truth spot;
+    start_body(&dot, POINTS);
+    dot.count = 1;
+    memcpy(dot.v[0], point, sizeof dot.v[0]);
+    bind(&dot);
+    find_truth(&spot, &dot, b, 0);
+    settle(&spot, e, &dot, b);
+    return spot.lower;
+}
+
+/* How far the body reaches along the normal, or with sign -1 against it. */
+static inline quad along_normal(const body *b, const real *normal, int sign)
+{
+    quad n[DIM], x[DIM], sum = 0;
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)normal[i] * (quad)sign;
+    }
+    farthest_of_body(b, no_origin, 1, n, x);
+    for (int i = 0; i < DIM; i++) {
+        sum += n[i] * x[i];
+    }
+    return sum / norm(n);
+}
+
 #endif

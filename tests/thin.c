@@ -22,7 +22,7 @@ static const char *const sort_name[SORTS] = {"capsules", "nearly parallel", "par
                                              "uneven",   "ball by a box",   "in a box", "on a side", "sheared"};
 
 static exact best;
-static truth nearly, spot;
+static truth nearly;
 static pair p;
 static faults found;
 static long at;
@@ -204,39 +204,12 @@ static void fill_gap(draws *d)
 
 /* ---- the laws ---- */
 
-static quad off_truth(quad x) { return positive(x > nearly.upper ? x - nearly.upper : nearly.lower - x); }
-
-static quad along_normal(const body *b, const real *normal, int sign)
-{
-    quad n[DIM], x[DIM], sum = 0;
-    for (int i = 0; i < DIM; i++) {
-        n[i] = (quad)normal[i] * (quad)sign;
-    }
-    farthest_of_body(b, no_origin, 1, n, x);
-    for (int i = 0; i < DIM; i++) {
-        sum += n[i] * x[i];
-    }
-    return sum / norm(n);
-}
-
-static quad stands_off(const body *b, const real *point)
-{
-    static body dot;
-    start_body(&dot, POINTS);
-    dot.count = 1;
-    memcpy(dot.v[0], point, sizeof dot.v[0]);
-    bind(&dot);
-    find_truth(&spot, &dot, b, 0);
-    settle(&spot, &best, &dot, b);
-    return spot.lower;
-}
-
 /* That what formulas tell is as good as what a walk does. */
 static void check_told(const V(result) * r, int far)
 {
     const quad most = (quad)(POINT_ERROR * U * (scale() + far_out()));
     const quad width = (quad)r->upper - (quad)r->lower;
-    const quad off_a = stands_off(&p.a, r->point_a), off_b = stands_off(&p.b, r->point_b);
+    const quad off_a = stands_off_body(&best, &p.a, r->point_a), off_b = stands_off_body(&best, &p.b, r->point_b);
     const int sharp = p.a.shape.radius == 0 && p.b.shape.radius == 0;
     quad n[DIM], along, gap[DIM];
     for (int i = 0; i < DIM; i++) {
@@ -253,7 +226,8 @@ static void check_told(const V(result) * r, int far)
     if (!far) {
         return;
     }
-    hold("the value is near", r, in_u(off_truth((quad)r->value)) <= VALUE_ERROR, in_u(off_truth((quad)r->value)));
+    hold("the value is near", r, in_u(off_truth(&nearly, (quad)r->value)) <= VALUE_ERROR,
+         in_u(off_truth(&nearly, (quad)r->value)));
     hold("the bracket is narrow", r,
          in_u(width) <= (r->value < 0 ? DEPTH_WIDTH * (sharp ? 1 : span_of_pair(&p.a, &p.b) / scale())
                                       : DISTANCE_WIDTH * span_of_pair(&p.a, &p.b) / scale()),
@@ -276,7 +250,7 @@ static int check(const V(result) * r, int told, int far, int signed_too)
         high = positive(high);
     }
     hold("the bracket holds", r, (quad)r->lower <= high && low <= (quad)r->upper,
-         in_u(quad_abs(off_truth((quad)r->lower)) + quad_abs(off_truth((quad)r->upper))));
+         in_u(quad_abs(off_truth(&nearly, (quad)r->lower)) + quad_abs(off_truth(&nearly, (quad)r->upper))));
     hold("the value is in the bracket", r, !far || (r->lower <= r->value && r->value <= r->upper), 0);
     if (told && is_normal()) {
         check_told(r, far && (signed_too || !meet));

@@ -57,11 +57,11 @@ static inline void sight_pair(const difference *d, const goal *g, sight_of_two *
     e->l = length(e->v);
 }
 
-/* A line through the point at that share of it rises so much from end to end, or by err more or less: the most by which
- * an end lies below that point. */
-static inline real fall_along(real rise, real err, real share)
+/* A line rises so much for each length of it, or by err more or less: the most by which an end of it lies below the
+ * point that is so far from the ends. */
+static inline real fall_along(real rise, real err, real behind, real ahead)
 {
-    return larger((err + rise) * share, (err - rise) * (1 - share));
+    return larger((err + rise) * behind, (err - rise) * ahead);
 }
 
 /* What rounding may make of a rise: of an edge the map 3 and the product 3, and 4 of the rise, that of its length and
@@ -150,8 +150,9 @@ static inline void sight_sticks(const difference *d, const goal *g, sight_of_two
         edge_b = edge_of(&d->b, &b);
     }
     const real rise_a = dot(e->v, a.way) / e->l, rise_b = -dot(e->v, b.way) / e->l;
-    e->fall = fall_along(rise_a, lost_of_rise(edge_a, rise_a), s) + fall_along(rise_b, lost_of_rise(edge_b, rise_b), t);
-    e->lies = fall_along(rise_a, 0, s) + fall_along(rise_b, 0, t);
+    e->fall = fall_along(rise_a, lost_of_rise(edge_a, rise_a), s, 1 - s) +
+              fall_along(rise_b, lost_of_rise(edge_b, rise_b), t, 1 - t);
+    e->lies = fall_along(rise_a, 0, s, 1 - s) + fall_along(rise_b, 0, t, 1 - t);
     e->edge = edge_a + edge_b;
     e->off = UNIT * e->edge * (real)1.125;
     if (!is_of_length(&a, d) || !is_of_length(&b, d)) e->l = 0;
@@ -228,8 +229,8 @@ static inline real fall_of_box(vec rise, real longest, int exactly, vec half, ve
 {
     real fall = 0;
     for (int i = 0; i < DIM; i++) {
-        const real err = exactly ? UNIT * 4 * (longest + size(rise.c[i])) : 0;
-        fall += larger((err - rise.c[i]) * (half.c[i] + foot.c[i]), (err + rise.c[i]) * (half.c[i] - foot.c[i]));
+        const real err = exactly ? UNIT * 4 * (longest + size(rise.c[i])) : 0; /* the product alone, and as above */
+        fall += fall_along(-rise.c[i], err, half.c[i] + foot.c[i], half.c[i] - foot.c[i]);
     }
     return fall;
 }
@@ -379,16 +380,14 @@ static enum glanced tell_thin(search *q, const shape *a, const shape *b, const g
     return look_at_thin(q, level, a, b, g, r) ? TELLING : IN_VAIN;
 }
 
-/* The square of the norm of the body's map, over that of its level. */
-static real square_of_map_in_frame(const body *k, real level) { return square_of_map(k, squared_axes(k, level)); }
-
 /* In the frame, where the sizes were none to do without. */
 static APART int tell_thin_in_frame(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     const difference before = q->d;
     difference *d = &q->d;
     const real level_a = level_of_map(&d->a), level_b = level_of_map(&d->b);
-    const real map_a = square_of_map_in_frame(&d->a, level_a), map_b = square_of_map_in_frame(&d->b, level_b);
+    const real map_a = square_of_map(&d->a, squared_axes(&d->a, level_a));
+    const real map_b = square_of_map(&d->b, squared_axes(&d->b, level_b));
     const real set_a = square_of_thin(&d->a, d->a.grain / level_a), set_b = square_of_thin(&d->b, d->b.grain / level_b);
     d->doubt = GLANCE_DOUBT * root(map_a * set_a + map_b * set_b + dot(d->c, d->c)) + (d->wild ? d->lost : 0);
     know_norms(d, map_a / (level_a * level_a), map_b / (level_b * level_b));
