@@ -20,10 +20,10 @@ static const uint64_t known[3] = {0xae77dfcf66c1956a, 0x16060bb4d1e2cdec, 0x53b9
 static const uint64_t known[3] = {0xfe0df447db9e91b1, 0x3e8eee700602a52d, 0x3f06fd9bd99a33ba};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xa1045ccd82ec9e50, 0x4516404d140faba7, 0x1ff4e309eaf98632};
+static const uint64_t known[3] = {0x4ee60caaee30dfcb, 0x0e6898eff78c2d9b, 0x03dd88997c35b058};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x7c3c7b1e8f0d6266, 0xd8f8b1cacc3e2378, 0xe144612a3cc40600};
+static const uint64_t known[3] = {0xa027c7982e2a9ac5, 0x97e949c5d004661d, 0x332ff50ac00bb809};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

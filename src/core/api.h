@@ -11,6 +11,7 @@
 #include "glance.h"
 #include "intersect.h"
 #include "plain.h"
+#include "planar.h"
 #include "thin.h"
 #include "widen.h"
 
@@ -84,12 +85,7 @@ static void remember(cache *k, const search *q, const shape *a, const shape *b)
     }
     k->count = (uint32_t)n;
     k->reserved = 0;
-    k->reach_a = q->d.a.reach;
-    k->reach_b = q->d.b.reach;
-    k->support[0] = a->support;
-    k->support[1] = b->support;
-    k->data[0] = a->data;
-    k->data[1] = b->data;
+    keep_whose(k, q, a, b);
 }
 
 /* The goal in the search's scale. */
@@ -508,9 +504,11 @@ static inline int tell_extent(search *q, const shape *a, const shape *b, const o
 }
 
 /* The everyday way, of sets whose corners are listed. How far it led; FAULT: nowhere. q->told: to the answer. */
-static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+static enum end answer_plainly(search *q, const shape *a, const shape *b, const options *o, const goal *asked,
+                               result *r)
 {
     goal own;
+    const goal *g = asked;
     const int boxes = are_boxes(a, b);
     if (!settle_both(q, a, b)) return FAULT;
     if (!is_scale_free(g)) {
@@ -522,11 +520,12 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
         q->thin = tell_thin_in_frame(q, a, b, g, r) ? TELLING : IN_VAIN;
         q->told = q->thin == TELLING;
     }
-    if (q->told) return STILL;
+    if (q->told || tell_polygons_in_frame(q, 0, a, b, o, asked, r)) return STILL;
     if (!open_listed(q, lender_of(a, b, o, g->sign_only))) return FAULT;
     if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && g->sign_only && q->glanced != AIMED))
         q->told = look_in_frame(q, g->max_steps, a, b, r);
     if (q->told) return BEYOND;
+    if (tell_polygons_in_frame(q, 1, a, b, o, asked, r)) return STILL;
     if (boxes && g->sign_only && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     enum end end = walk(q, a, b, g, r);
     if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
@@ -544,6 +543,7 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
     q->d.calls = 0;
     q->thin = q->listed && are_thin(&q->d) ? tell_thin(q, a, b, g, r) : UNTRIED;
     q->told = q->thin == TELLING;
+    tell_polygons(q, a, b, o, g, r);
     *end = q->told ? STILL : q->listed ? answer_plainly(q, a, b, o, g, r) : FAULT;
     if (q->thin == TELLING && o->cache) o->cache->count = 0; /* there is nothing that a formula would start from */
     if (q->told) return 0;

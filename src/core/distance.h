@@ -45,10 +45,19 @@ enum end {
  * along an axis of two boxes either; or the answer. */
 enum glanced { UNTRIED, UNCLEAR, IN_VAIN, AIMED, TELLING };
 
+/* Where a walk was left, the count 0 if nowhere: the simplex, with what it took to come there, and what is known. */
+typedef struct find {
+    cache at;
+    int steps, calls;
+    real lower; /* in the caller's lengths */
+    vec normal;
+} find;
+
 typedef struct search {
     difference d;
     int listed;           /* the corners of both bodies, before all else */
-    enum glanced thin;    /* how it went with thin cores, without a frame */
+    enum glanced thin;    /* how it went with thin cores, without a frame; and */
+    enum glanced planar;  /* with few corners in the plane */
     enum glanced glanced; /* IN_VAIN, AIMED: the corner is in s's first slot, in the caller's lengths */
     simplex s;
     vec v;
@@ -69,7 +78,10 @@ typedef struct search {
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
-    int kept;            /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
+#if DIM == 2
+    find found; /* where polygons looked at by themselves were left to the walk */
+#endif
+    int kept; /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
 } search;
 
 /* |v| is below a sixteenth of a rounding of the frame, which is of size 1 to 2: it has no direction. Not as much as
@@ -475,8 +487,18 @@ static int lends(const cache *k, const shape *a, const shape *b)
            k->data[0] == a->data && k->data[1] == b->data;
 }
 
+static inline void keep_whose(cache *k, const search *q, const shape *a, const shape *b)
+{
+    k->reach_a = q->d.a.reach;
+    k->reach_b = q->d.b.reach;
+    k->support[0] = a->support;
+    k->support[1] = b->support;
+    k->data[0] = a->data;
+    k->data[1] = b->data;
+}
+
 /* Its points as corners on trust. 0: they are not within the reaches. */
-static int borrow(search *q, const cache *k)
+static int take_over(search *q, const cache *k)
 {
     for (uint32_t i = 0; i < k->count; i++) {
         vertex *p = spare(&q->s);
@@ -486,6 +508,13 @@ static int borrow(search *q, const cache *k)
         p->w = corner_of(&q->d, p->x, p->y);
         q->s.n++;
     }
+    return 1;
+}
+
+/* And where they stand. */
+static int borrow(search *q, const cache *k)
+{
+    if (!take_over(q, k)) return 0;
     q->lender = k;
     q->borrowed = (1u << k->count) - 1;
     project(q, 1);

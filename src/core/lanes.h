@@ -19,6 +19,8 @@ static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_pd(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_pd(x, y); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cmpge_pd(x, y)); }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
+static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_pd(x); }
+static inline lanes largest_in_all(lanes x) { return _mm_max_pd(x, _mm_shuffle_pd(x, x, 1)); }
 
 /* A number of each point, step by step. */
 static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
@@ -59,6 +61,12 @@ static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_ps(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_ps(x, y); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_ps(_mm_cmpge_ps(x, y)); }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_ps(r, x); }
+static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_ps(x); }
+static inline lanes largest_in_all(lanes x)
+{
+    x = _mm_max_ps(x, _mm_shuffle_ps(x, x, 0x4e));
+    return _mm_max_ps(x, _mm_shuffle_ps(x, x, 0xb1));
+}
 
 /* x and y of two points, step apart. */
 static inline lanes load_two(const real *x, size_t step)
@@ -113,6 +121,8 @@ static inline lanes larger_ones(lanes x, lanes y) { return larger(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return smaller(x, y); }
 static inline int any_as_large(lanes x, lanes y) { return x >= y; }
 static inline void part_lanes(lanes x, real r[LANES]) { r[0] = x; }
+static inline lanes join_lanes(const real x[LANES]) { return x[0]; }
+static inline lanes largest_in_all(lanes x) { return x; }
 static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
 {
     (void)step;

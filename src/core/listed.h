@@ -214,13 +214,10 @@ static inline int is_corner(const body *k, vec x)
     return 0;
 }
 
-/* From the points of the last query, if they are corners still: nothing is taken on trust. 0: they are not, or v has no
- * direction. */
-static int reopen_listed(search *q, const cache *k)
+/* From these points, which are corners. 0: v has no direction, or nothing comes of it. */
+static int open_at(search *q, const cache *k)
 {
     vertex p;
-    for (uint32_t i = 0; i < k->count; i++)
-        if (!is_corner(&q->d.a, load(k->a[i])) || !is_corner(&q->d.b, load(k->b[i]))) return 0;
     if (!borrow(q, k)) return 0;
     q->lender = NULL;
     int full = q->s.n > DIM;
@@ -236,6 +233,38 @@ static int reopen_listed(search *q, const cache *k)
     q->inside = room_inside(q);
     return q->inside > q->d.doubt;
 }
+
+/* From the points of the last query, if they are corners still: nothing is taken on trust. 0: they are not, or as
+ * above.
+ */
+static int reopen_listed(search *q, const cache *k)
+{
+    for (uint32_t i = 0; i < k->count; i++)
+        if (!is_corner(&q->d.a, load(k->a[i])) || !is_corner(&q->d.b, load(k->b[i]))) return 0;
+    return open_at(q, k);
+}
+
+#if DIM == 2
+/* From where polygons looked at by themselves were left. 0: nothing comes of it. */
+static APART int open_found(search *q)
+{
+    const search before = *q;
+    int opened = 0;
+    cache at = q->found.at;
+    for (; at.count > 1 && !opened; at.count--) {
+        blank(q);
+        opened = open_at(q, &at);
+    }
+    if (!opened) {
+        *q = before;
+        return 0;
+    }
+    q->steps += q->found.steps;
+    q->d.calls += q->found.calls - before.d.calls;
+    q->borrowed = 0;
+    return 1;
+}
+#endif
 
 /* The frame of two bodies listed. 0: there is something wrong. */
 static inline int settle_both(search *q, const shape *a, const shape *b)
@@ -256,6 +285,9 @@ static int ask_centres(search *q)
  * asked for, or from nothing. 0: there is something wrong. */
 static int open_listed(search *q, const cache *k)
 {
+#if DIM == 2
+    if (q->found.at.count > 0 && open_found(q)) return 1;
+#endif
     const int steps = q->steps;
     if (k) {
         blank(q);

@@ -281,13 +281,13 @@ static void point_along(search *q, vec way)
     q->lower = lower;
 }
 
-/* The cores overlap, or the radii do. */
-static void tell_overlap(search *q, const shape *a, const shape *b, enum end end, result *r)
+/* The cores overlap, or the radii do; a point of both is off by no more than that. */
+static void tell_overlap(search *q, const shape *a, const shape *b, enum end end, real off, result *r)
 {
     closest p = pair_of(q);
     real upper = end == INSIDE ? q->d.doubt - q->inside : length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
     spell(q, a, b, upper, &p, r);
-    if (end == INSIDE && !(peak(p.w) <= 8 * UNIT)) r->upper = 0; /* the pair is none */
+    if (end == INSIDE && !(peak(p.w) <= off)) r->upper = 0; /* the pair is none */
 }
 
 /* The distance, where the walk has found it. 0: it is no more than rounding blurs, or the weights are not good enough.
@@ -296,7 +296,7 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
 {
     if (end == OPEN || end == FAULT || (end == INSIDE && g->deep)) return 0;
     if (end == INSIDE) {
-        tell_overlap(q, a, b, end, r);
+        tell_overlap(q, a, b, end, 8 * UNIT, r);
         r->value = 0;
         return r->upper < 0;
     }
@@ -336,7 +336,7 @@ static int tell_sign(search *q, const shape *a, const shape *b, enum end end, re
         return r->lower > 0;
     }
     if (end != WITHIN && end != INSIDE) return 0;
-    tell_overlap(q, a, b, end, r);
+    tell_overlap(q, a, b, end, 8 * UNIT, r);
     return r->upper < 0;
 }
 

@@ -342,7 +342,7 @@ static inline int look_at_thin(search *q, real level, const shape *a, const shap
 static inline int is_nothing(const body *k)
 {
     if (k->asked == AS_BOX) return peak(load(((const box *)k->data)->half)) == 0;
-    return peak(first_end(k)) == 0 && peak(last_end(k)) == 0;
+    return k->list.count < 3 && peak(first_end(k)) == 0 && peak(last_end(k)) == 0;
 }
 
 /* Neither its square nor those of its map's entries underflow, if it is of any size. */
@@ -352,11 +352,11 @@ static inline int is_of_plain_size(const body *k, real map, real set)
 }
 
 /* What it takes to know what rounding took from a pair. */
-static inline void know_norms(difference *d, real map_a, real map_b)
+static inline void know_norms(difference *d, real of_a, real of_b)
 {
     d->a.size = d->b.size = 1; /* not 0, where nothing is known to be rounded */
-    d->a.norm = root(map_a);
-    d->b.norm = root(map_b);
+    d->a.norm = of_a;
+    d->b.norm = of_b;
 }
 
 /* Without a frame. UNCLEAR: the sizes are none for that. */
@@ -373,7 +373,7 @@ static enum glanced tell_thin(search *q, const shape *a, const shape *b, const g
         return UNCLEAR;
     d->doubt = GLANCE_DOUBT * root(square);
     if (!g->sign_only) {
-        know_norms(d, map_a, map_b);
+        know_norms(d, root(map_a), root(map_b));
         know_offset(d, a, b);
     }
     const real level = d->a.asked == AS_BOX ? leveler(root(map_a)) : d->b.asked == AS_BOX ? leveler(root(map_b)) : 1;
@@ -390,7 +390,7 @@ static APART int tell_thin_in_frame(search *q, const shape *a, const shape *b, c
     const real map_b = square_of_map(&d->b, squared_axes(&d->b, level_b));
     const real set_a = square_of_thin(&d->a, d->a.grain / level_a), set_b = square_of_thin(&d->b, d->b.grain / level_b);
     d->doubt = GLANCE_DOUBT * root(map_a * set_a + map_b * set_b + dot(d->c, d->c)) + (d->wild ? d->lost : 0);
-    know_norms(d, map_a / (level_a * level_a), map_b / (level_b * level_b));
+    know_norms(d, root(map_a) / level_a, root(map_b) / level_b);
     know_offset(d, a, b);
     if (look_at_thin(q, d->a.asked == AS_BOX ? level_a : level_b, a, b, g, r)) return 1;
     blank(q);

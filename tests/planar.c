@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/* Polygons of few corners in the plane, against the exact truth: of one to nine corners, in clusters whose edges are a
+ * few roundings long, on lines, twice the same, sheared; apart, all but touching and overlapping, with radii. What
+ * tells most of them shows in how few steps they take; and no query takes more of these for being allowed more. */
+#include "faults.h"
+#include "pairs.h"
+#include "settle.h"
+
+#define VALUE_ERROR 4.0      /* in u * scale */
+#define DISTANCE_WIDTH 100.0 /* in u * span */
+#define STEPS_MOST 24
+#define PAIRS 1500 /* of each sort */
+
+enum sort { CIRCLING, CLUSTERS, ON_LINES, SHEARED, NEARLY_TOUCHING, SORTS };
+static const char *const sort_name[SORTS] = {"circling", "clusters", "on lines", "sheared", "nearly touching"};
+
+static exact best;
+static truth nearly;
+static pair p;
+static faults found;
+static long at;
+static enum sort sort;
+
+static double scale(void) { return (double)nearly.scale + (double)p.a.shape.radius + (double)p.b.shape.radius; }
+
+static void hold(const char *law, const V(result) * r, int holds, double by)
+{
+    if (holds || !note_fault(&found, law, by)) {
+        return;
+    }
+    print_error("%s %s, pair %ld: %s (%.3g)\n  value %.17g in %.17g .. %.17g; truth %.17g, status %d, steps %d\n  ",
+                VARIANT, sort_name[sort], at, law, by, (double)r->value, (double)r->lower, (double)r->upper,
+                (double)nearly.lower, r->status, r->steps);
+    print_case(stderr, "distance", &p.a, &p.b);
+}
+
+static void draw_corners(draws *d, body *b)
+{
+    double middle[DIM] = {between(d, -1, 1), between(d, -1, 1)}, along[DIM];
+    int few = sort == CLUSTERS && below(d, 3);
+    start_body(b, POINTS);
+    unit(d, along);
+    b->count = 1 + below(d, 9);
+    for (int k = 0; k < b->count; k++) {
+        double x[DIM], s = between(d, -1, 1);
+        unit(d, x);
+        for (int i = 0; i < DIM; i++) {
+            double off = few ? 8 * U * (below(d, 7) - 3) : sort == ON_LINES ? s * along[i] : x[i];
+            b->v[k][i] = below(d, 12) == 0 && k > 0 ? b->v[k - 1][i] : (real)(middle[i] + off);
+        }
+    }
+    if (sort == SHEARED) {
+        draw_affine(d, b);
+    } else if (below(d, 4)) {
+        turn(d, b, 100);
+    }
+}
+
+static void draw_polygons(draws *d)
+{
+    draw_corners(d, &p.a);
+    draw_corners(d, &p.b);
+    for (int i = 0; i < DIM; i++) {
+        p.b.pose.p[i] = (real)between(d, -3, 3);
+    }
+    bind_pair(&p);
+    if (below(d, 3) == 0) {
+        p.a.shape.radius = (real)between(d, 0, 1);
+    }
+}
+
+/* b moves toward a along the normal, but for so much of the gap. */
+static void bring_near(draws *d)
+{
+    V(result) r;
+    const double but = magnitude(d, -17, -1);
+    memset(&r, 0, sizeof r);
+    assert_true(V(distance)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+    for (int i = 0; i < DIM; i++) {
+        p.b.pose.p[i] = (real)((double)p.b.pose.p[i] - (double)r.normal[i] * ((double)r.value - but));
+    }
+    bind_pair(&p);
+}
+
+static void check(const V(result) * r, int signed_too)
+{
+    const quad low = signed_too ? nearly.lower : positive(nearly.lower);
+    const quad high = signed_too ? nearly.upper : positive(nearly.upper);
+    const double u_scale = U * scale();
+    hold("the bracket holds", r, (quad)r->lower <= high && low <= (quad)r->upper,
+         (double)(quad_abs(off_truth(&nearly, (quad)r->lower)) + quad_abs(off_truth(&nearly, (quad)r->upper))));
+    hold("steps are few", r, r->steps <= STEPS_MOST, r->steps);
+    if (signed_too) {
+        return;
+    }
+    hold("the status is ok", r, r->status == GJK_OK, r->status);
+    hold("the value is near", r,
+         (double)(nearly.lower > 0 ? off_truth(&nearly, (quad)r->value) : (quad)r->value) <= VALUE_ERROR * u_scale,
+         (double)off_truth(&nearly, (quad)r->value) / u_scale);
+    hold("the bracket is narrow", r,
+         !(nearly.lower > 0) ||
+             (double)((quad)r->upper - (quad)r->lower) <= DISTANCE_WIDTH * U * span_of_pair(&p.a, &p.b),
+         (double)((quad)r->upper - (quad)r->lower) / U / span_of_pair(&p.a, &p.b));
+}
+
+/* Allowed so many steps or more than it takes, a query takes as many, and says the same. */
+static void check_limits(const V(result) * full)
+{
+    V(options) o;
+    memset(&o, 0, sizeof o);
+    o.size = sizeof o;
+    for (int k = full->steps; k <= full->steps + 40; k += 1 + k / 4) {
+        V(result) r;
+        memset(&r, 0, sizeof r);
+        o.max_steps = (uint32_t)k;
+        assert_true(V(distance)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+        hold("more steps change nothing", &r, memcmp(&r, full, sizeof r) == 0, k);
+    }
+}
+
+static void polygons(void **state)
+{
+    (void)state;
+    memset(&found, 0, sizeof found);
+    for (int k = 0; k < SORTS; k++) {
+        sort = (enum sort)k;
+        for (at = 0; at < PAIRS; at++) {
+            V(result) r;
+            draws d = draws_from(21, (uint64_t)k, (uint64_t)at);
+            memset(&r, 0, sizeof r);
+            draw_polygons(&d);
+            if (sort == NEARLY_TOUCHING) {
+                bring_near(&d);
+            }
+            find_truth(&nearly, &p.a, &p.b, 1);
+            assert_true(settle(&nearly, &best, &p.a, &p.b));
+            assert_true(V(distance)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+            check(&r, 0);
+            check_limits(&r);
+            assert_true(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+            check(&r, 1);
+        }
+    }
+    print_faults(&found, "polygons");
+    assert_int_equal(found.count, 0);
+}
+
+/* All but singular, and with edges of all lengths: rounding led the front round and round. */
+static void no_end_of_turning(void **state)
+{
+    static const double a[][2] = {{0x1.d14f7f9415178p+17, 0},
+                                  {0x1.d14f61209be79p+17, 0x1.50ae227def2d8p+8},
+                                  {0x1.d13ecc5b54835p+17, 0x1.f2a4d98dd6d47p+11},
+                                  {0x1.c41315b5f406dp+17, 0x1.b8c5a5605398p+15},
+                                  {0x1.d14f773e28decp+17, 0x1.604d72ec21501p+7},
+                                  {0x1.6e787f417d312p+17, 0x1.1eba735dab5a9p+17}};
+    static const double b[][2] = {{1, 0},
+                                  {0x1.0000000250111p+0, -0x1.d1e384bc1818dp-31},
+                                  {0x1.6a09f6256d727p-1, 0x1.6a09d6aa7957fp-1},
+                                  {0x1.6a09f62d9d0ffp-1, 0x1.6a09d6a357551p-1},
+                                  {0x1.6428a6aa4625bp-20, 0x1.fffffffffe108p-1},
+                                  {0x1.63fc7abbbb7a9p-20, 0x1.0000000037afap+0},
+                                  {-0x1.6a09b72f8280ap-1, 0x1.6a0a15a05ed04p-1},
+                                  {-0x1.6a09b72c0f039p-1, 0x1.6a0a159fee61p-1}};
+    static const double of_a[] = {0x1.d8f5d7276012fp-1, 0x1.882fb7440536fp-2, -0x1.882fb7440536fp-2,
+                                  0x1.d8f5d7276012fp-1};
+    static const double of_b[] = {0x1.e2276c5452e8cp-2, 0x1.b05773f016d9ap-1, 0x1.e2276c5452e8cp-1,
+                                  0x1.b05773f093784p+0};
+    V(result) r;
+    (void)state;
+    memset(&found, 0, sizeof found);
+    memset(&r, 0, sizeof r);
+    start_body(&p.a, POINTS);
+    start_body(&p.b, POINTS);
+    p.a.count = 6;
+    p.b.count = 8;
+    for (int i = 0; i < DIM; i++) {
+        for (int k = 0; k < 8; k++) {
+            p.a.v[k][i] = (real)a[k % 6][i];
+            p.b.v[k][i] = (real)b[k][i];
+        }
+        for (int j = 0; j < DIM; j++) {
+            p.a.pose.m[DIM * i + j] = (real)of_a[DIM * i + j];
+            p.b.pose.m[DIM * i + j] = (real)of_b[DIM * i + j];
+        }
+    }
+    p.b.pose.p[0] = (real)0x1.1aff87cfd0ba2p+19;
+    p.b.pose.p[1] = (real)-0x1.d40b0ed21001fp+17;
+    bind_pair(&p);
+    assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, NULL, &r), GJK_OK);
+    check_limits(&r);
+    assert_true(r.steps <= STEPS_MOST);
+    assert_int_equal(found.count, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(polygons), cmocka_unit_test(no_end_of_turning)};
+    exact_start(&best);
+    return cmocka_run_group_tests_name("polygons of " VARIANT, tests, NULL, NULL);
+}
