@@ -189,13 +189,44 @@ static void no_end_of_turning(void **state)
     bind_pair(&p);
     assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, NULL, &r), GJK_OK);
     check_limits(&r);
-    assert_true(r.steps <= STEPS_MOST);
+    assert_true(r.steps <= 8);
     assert_int_equal(found.count, 0);
+}
+
+/* An edge of an ulp, far from its own origin: which of its points is nearest is not told by where its ends were rounded
+ * to. */
+static void edge_of_an_ulp(void **state)
+{
+    static const double a[][2] = {{-0x1.8p-50, -0x1p-49}, {0x1.8p-51, 0x1.8p-51}, {-0x1p-51, -0x1.4p-50}};
+    static const double b[][2] = {{0x1.ffffffffffffdp+0, 0x1.7fffffffffffep+2},
+                                  {0x1.ffffffffffffap+0, 0x1.7ffffffffffffp+2}};
+    const double ulps = U / 0x1p-53;
+    V(result) r;
+    (void)state;
+    memset(&r, 0, sizeof r);
+    start_body(&p.a, POINTS);
+    start_body(&p.b, POINTS);
+    p.a.count = 3;
+    p.b.count = 2;
+    for (int i = 0; i < DIM; i++) {
+        for (int k = 0; k < 3; k++) {
+            p.a.v[k][i] = (real)(ulps * a[k][i]);
+        }
+        for (int k = 0; k < 2; k++) {
+            const double whole = i ? 6 : 2;
+            p.b.v[k][i] = (real)(whole + ulps * (b[k][i] - whole));
+        }
+    }
+    p.b.pose.p[0] = 4;
+    bind_pair(&p);
+    assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, NULL, &r), GJK_OK);
+    assert_true((double)(r.upper - r.lower) <= DISTANCE_WIDTH * U * span_of_pair(&p.a, &p.b));
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(polygons), cmocka_unit_test(no_end_of_turning)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(polygons), cmocka_unit_test(no_end_of_turning),
+                                       cmocka_unit_test(edge_of_an_ulp)};
     exact_start(&best);
     return cmocka_run_group_tests_name("polygons of " VARIANT, tests, NULL, NULL);
 }

@@ -534,14 +534,10 @@ static enum glanced tell_planar(search *q, cache *own, const shape *a, const sha
     d->slack = 0;
     know_reach_listed(&d->a);
     know_reach_listed(&d->b);
-    const real map_a = square_of_map(&d->a, squared_axes(&d->a, 1)), set_a = square_of_reach(&d->a, 1);
-    const real map_b = square_of_map(&d->b, squared_axes(&d->b, 1)), set_b = square_of_reach(&d->b, 1);
-    const real square = map_a * set_a + map_b * set_b + dot(d->c, d->c);
-    if (!is_of_plain_size(&d->a, map_a, set_a) || !is_of_plain_size(&d->b, map_b, set_b) || !(square > 1 / PLAIN) ||
-        !(square < PLAIN * PLAIN) || !(a->radius >= 0 && b->radius >= 0 && g->radius < PLAIN))
+    real map[2];
+    if (!doubt_outside(d, a, b, square_of_reach(&d->a, 1), square_of_reach(&d->b, 1), PLANAR_DOUBT, map))
         return UNCLEAR;
-    d->doubt = PLANAR_DOUBT * root(square);
-    know_norms(d, root(map_a), root(map_b));
+    know_norms(d, root(map[0]), root(map[1]));
     return look_at_planar(q, own, a, b, g, r) ? TELLING : IN_VAIN;
 }
 

@@ -359,24 +359,31 @@ static inline void know_norms(difference *d, real of_a, real of_b)
     d->b.norm = of_b;
 }
 
+/* The doubt without a frame, in units of the root of A^2 + B^2 + c^2, of sets whose squared reaches are these; and the
+ * squares of the maps. 0: the sizes are none to do without. */
+HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a, real set_b, real unit, real map[2])
+{
+    map[0] = square_of_map(&d->a, squared_axes(&d->a, 1));
+    map[1] = square_of_map(&d->b, squared_axes(&d->b, 1));
+    const real square = map[0] * set_a + map[1] * set_b + dot(d->c, d->c);
+    d->doubt = unit * root(square);
+    return is_of_plain_size(&d->a, map[0], set_a) && is_of_plain_size(&d->b, map[1], set_b) && square > 1 / PLAIN &&
+           square < PLAIN * PLAIN && a->radius >= 0 && b->radius >= 0 && a->radius + b->radius < PLAIN;
+}
+
 /* Without a frame. UNCLEAR: the sizes are none for that. */
 static enum glanced tell_thin(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     difference *d = &q->d;
     stay_outside(d, a, b);
     d->slack = 0;
-    const real map_a = square_of_map(&d->a, squared_axes(&d->a, 1)), set_a = square_of_thin(&d->a, 1);
-    const real map_b = square_of_map(&d->b, squared_axes(&d->b, 1)), set_b = square_of_thin(&d->b, 1);
-    const real square = map_a * set_a + map_b * set_b + dot(d->c, d->c);
-    if (!is_of_plain_size(&d->a, map_a, set_a) || !is_of_plain_size(&d->b, map_b, set_b) || !(square > 1 / PLAIN) ||
-        !(square < PLAIN * PLAIN) || !(a->radius >= 0 && b->radius >= 0 && g->radius < PLAIN))
-        return UNCLEAR;
-    d->doubt = GLANCE_DOUBT * root(square);
+    real map[2];
+    if (!doubt_outside(d, a, b, square_of_thin(&d->a, 1), square_of_thin(&d->b, 1), GLANCE_DOUBT, map)) return UNCLEAR;
     if (!g->sign_only) {
-        know_norms(d, root(map_a), root(map_b));
+        know_norms(d, root(map[0]), root(map[1]));
         know_offset(d, a, b);
     }
-    const real level = d->a.asked == AS_BOX ? leveler(root(map_a)) : d->b.asked == AS_BOX ? leveler(root(map_b)) : 1;
+    const real level = d->a.asked == AS_BOX ? leveler(root(map[0])) : d->b.asked == AS_BOX ? leveler(root(map[1])) : 1;
     return look_at_thin(q, level, a, b, g, r) ? TELLING : IN_VAIN;
 }
 
