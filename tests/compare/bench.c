@@ -280,7 +280,7 @@ static void print_library(const peer *p)
            truth_value(p->proves && p->single == block.single));
 }
 
-static void print_class(enum question question, const run *empty)
+static void print_class(enum question question, const run *empty, const run *alone)
 {
     double width = 0, least = HUGE_VAL, most = -HUGE_VAL;
     for (int i = 0; i < block.pairs; i++) {
@@ -297,6 +297,7 @@ static void print_class(enum question question, const run *empty)
     print_number("most", most);
     print_number("empty_least", empty->least);
     print_number("empty_median", empty->median);
+    print_number("supports_median", alone->median - empty->median);
     printf("}\n");
 }
 
@@ -407,10 +408,27 @@ static void find_truths(void)
 
 /* ---- one block ---- */
 
-/* The last of the runs asks nothing. */
-static void time_all(run *empty)
+/* Asks each body for one corner by the functions of ours, and nothing else. */
+static run one_corner_each(const int calls[])
 {
-    static run runs[MOST_PEERS + 1];
+    run alone = {.median = NOT_THERE};
+    for (int k = 0; k < count_asked; k++) {
+        const peer *p = asked[k].p;
+        if (p->supports && p->single == block.single && asked[k].timed && !alone.p) {
+            alone = asked[k].run;
+            alone.query = NULL;
+            alone.memory = NULL;
+            alone.calls = calls;
+        }
+    }
+    return alone;
+}
+
+/* The last of the runs but one asks nothing, the last for no more than corners. */
+static void time_all(run *empty, run *alone)
+{
+    static run runs[MOST_PEERS + 2];
+    int *calls = calloc((size_t)block.pairs, sizeof *calls);
     int count = 0;
     for (int k = 0; k < count_asked; k++) {
         if (asked[k].timed) {
@@ -419,8 +437,14 @@ static void time_all(run *empty)
     }
     runs[count] = asked[0].run;
     runs[count].query = ask_nothing;
-    time_runs(runs, count + 1, count_safe, rounds);
+    for (int i = 0; i < block.pairs && calls; i++) {
+        calls[i] = 2;
+    }
+    runs[count + 1] = one_corner_each(calls);
+    time_runs(runs, count + (calls && runs[count + 1].p ? 2 : 1), count_safe, rounds);
     *empty = runs[count];
+    *alone = runs[count + 1];
+    free(calls);
     for (int k = count_asked - 1; k >= 0; k--) {
         if (asked[k].timed) {
             asked[k].run = runs[--count];
@@ -433,14 +457,14 @@ static void time_all(run *empty)
 /* Returns how often ours failed. */
 static long compare(enum question question)
 {
-    run empty;
+    run empty, alone;
     long bad = 0;
     choose(question);
     ask_all(question);
     find_safe();
     start_runs(question);
-    time_all(&empty);
-    print_class(question, &empty);
+    time_all(&empty, &alone);
+    print_class(question, &empty, &alone);
     for (int k = 0; k < count_asked; k++) {
         bad += print_answers(question, &asked[k], &empty);
     }
@@ -454,13 +478,13 @@ static long compare(enum question question)
 static void grow(enum question question)
 {
     static run floors[MOST_PEERS];
-    run empty;
+    run empty, alone;
     int *calls = calloc((size_t)block.pairs, sizeof *calls);
     choose(question);
     ask_all(question);
     find_safe();
     start_runs(question);
-    time_all(&empty);
+    time_all(&empty, &alone);
     for (int k = 0; k < count_asked && calls; k++) {
         const entry *e = &asked[k];
         char at[32];

@@ -96,6 +96,8 @@ class Place(NamedTuple):
     pairs: int
     timed: int
     truth_width: float
+    supports_alone: float | None
+    """Nanoseconds to ask each body for one corner, by the functions of ours; None where no pair was safe to time."""
     answers: list[Answers]
 
     @property
@@ -175,7 +177,7 @@ def where(row):
 
 
 def _place(row, answers):
-    return Place(*where(row), row["pairs"], row["timed"], row["truth_width"], answers)
+    return Place(*where(row), row["pairs"], row["timed"], row["truth_width"], row["supports_median"], answers)
 
 
 def _answers(row, instructions):

@@ -14,7 +14,8 @@ MARKS = """\
 What the library set out to reach, and how far it has come: everyone at its defaults, each class and state of pairs
 for itself. Mean (geometric) and least are of theirs ÷ ours, the median time that they take divided by ours: above 1
 they are slower. In the last two rows they are largest errors, theirs to ours. Sound is who answers all right and
-errs by no more than 1e-14 scales."""
+errs by no more than 1e-14 scales. *Beyond reach* is a mark where what they take leaves less time than two calls of our
+support functions alone, one of each body and without its pose: so fast is nobody who asks these for a corner."""
 NOT_FIRST = """\
 Everyone at its defaults, and cold, without a cache of an answer before, if not said to be warm. Ours is the variant
 in the precision of the pairs, for those in float gjk2f or gjk3f, if nothing else is said. Faster is by median time;
