@@ -53,9 +53,12 @@ static inline real at_most(vec a)
     return padded(smaller(spread(a), box_diagonal));
 }
 
-/* Along dir, length l; dir is brought to size 1 first, so that its square is within range. The zero vector for none. */
+/* Along dir, length l; where its square might leave the range it is brought to size 1 first, to the same bits. The zero
+ * vector for none. */
 static vec along(vec dir, real l)
 {
+    const real square = dot(dir, dir);
+    if (!unruly(square) && !unruly(l)) return mul(dir, l / root(square));
     if (!(peak(dir) > 0)) return axis(0, 0);
     dir = unit_size(dir);
     return mul(dir, l / length(dir));
@@ -163,14 +166,21 @@ GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[D
     return in_own_unit(ball_in, data, dir, out);
 }
 
-/* The radii times the unit vector along (radii times dir). Both are brought to size first: what underflows then is far
- * below the rounding. */
+static inline vec stretched(vec x, vec by)
+{
+    EACH(x.c[i] *= by.c[i]);
+    return x;
+}
+
+/* The radii times the unit vector along (radii times dir). Where that is of no plain size both are brought to size
+ * first: what underflows then is far below the rounding. */
 static real ellipsoid_in(real unit, const void *data, vec dir, vec *out)
 {
     const ellipsoid *e = data;
     if (!e || !sized(e->radii, DIM)) return (real)NAN;
-    vec r = mul(load(e->radii), unit), d = unit_size(dir), g = mul(r, leveler(peak(r)));
-    EACH(g.c[i] *= d.c[i]);
+    const vec r = mul(load(e->radii), unit);
+    vec g = stretched(dir, r);
+    if (unruly(dot(g, g))) g = stretched(unit_size(dir), mul(r, leveler(peak(r))));
     g = along(g, 1);
     EACH(out->c[i] = r.c[i] * g.c[i]);
     return padded(peak(r));
