@@ -520,10 +520,12 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
         q->thin = tell_thin_in_frame(q, a, b, g, r) ? TELLING : IN_VAIN;
         q->told = q->thin == TELLING;
     }
+    if (HAS_SISTER && g->sign_only && q->thin && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
     if (q->told || tell_polygons_in_frame(q, 0, a, b, o, asked, r)) return STILL;
     if (!open_listed(q, lender_of(a, b, o, g->sign_only))) return FAULT;
     if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && g->sign_only && q->glanced != AIMED))
         q->told = look_in_frame(q, g->max_steps, a, b, r);
+    if (HAS_SISTER && g->sign_only && boxes && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
     if (q->told) return BEYOND;
     if (tell_polygons_in_frame(q, 1, a, b, o, asked, r)) return STILL;
     if (boxes && g->sign_only && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
