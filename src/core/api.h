@@ -497,7 +497,7 @@ static inline const cache *lender_of(const shape *a, const shape *b, const optio
 /* How deep two boxes are, if that is asked, or how far apart. */
 static inline int tell_extent(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
-    if (g->deep && ask_centres(q) && tell_boxes(q, a, b, g, r)) return 1;
+    if (g->deep && (tell_level(q, a, b, g, r) || (ask_centres(q) && tell_boxes(q, a, b, g, r)))) return 1;
     if (!tell_gap(q, a, b, g, r)) return 0;
     if (o->cache) remember(o->cache, q, a, b);
     return 1;

@@ -142,8 +142,23 @@ static int bound_level(const zonotope *z, const difference *d, const shape *a, c
     return 1;
 }
 
-/* How deep two boxes overlap, or that they touch. 0: that is not certain, or they are apart. There is no simplex to be
- * remembered: a cache stays as it is. */
+/* The cores' depth with its bounds, along n, and the points that go with it, in the boxes, times their grain. There is
+ * no simplex to be remembered: a cache stays as it is. */
+static void spell_boxes(search *q, const shape *a, const shape *b, real lower, real upper, twin deep, vec n, vec x,
+                        vec y, result *r)
+{
+    const difference *d = &q->d;
+    q->normal = n;
+    bracket(r, d, lower, upper, a, b);
+    r->value = gap_of(d, (twin){-deep.high, -deep.low}, a, b);
+    place_points(r, q, x, y, n, a, b, 2);
+    store(r->normal, n);
+    r->steps = q->steps;
+    r->supports = d->calls;
+    r->reserved = 0;
+}
+
+/* How deep two boxes overlap, or that they touch. 0: that is not certain, or they are apart. */
 static APART int tell_boxes(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     zonotope z;
@@ -163,15 +178,77 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
     real lower = below(-h.high, -h.low - WALL_DOUBT * z.far, 0), upper = -least;
     if (!(upper - lower <= 3 * UNIT * z.far)) return 0;
     if (!(upper < 0) && !bound_level(&z, d, a, b, &f, low, &lower, &upper)) return 0;
-    q->normal = low->n;
     EACH(x.c[i] = low->s[i] * (z.e[i] * z.level[0]); y.c[i] = -low->s[DIM + i] * (z.e[DIM + i] * z.level[1]));
-    bracket(r, d, lower, upper, a, b);
-    r->value = gap_of(d, (twin){-deep.high, -deep.low}, a, b);
-    place_points(r, q, x, y, low->n, a, b, 2);
-    store(r->normal, q->normal);
-    r->steps = q->steps;
-    r->supports = d->calls;
-    r->reserved = 0;
+    spell_boxes(q, a, b, lower, upper, deep, low->n, x, y, r);
+    return 1;
+}
+
+/* ---- boxes in line with the frame: their difference is one, too ---- */
+
+/* The box's map takes each axis of the frame to itself, longer or shorter, or to nothing. */
+static inline int is_in_line(const body *k)
+{
+    int r = 1;
+    for (int i = 1; i < DIM * DIM && k->posed && r; i++) r = i % (DIM + 1) == 0 || k->m[i] == 0;
+    return r;
+}
+
+static inline real entry_of(const body *k, int i) { return k->posed ? k->m[(DIM + 1) * i] : 1; }
+
+static inline real half_of(const body *k, int i) { return ((const box *)k->data)->half[i]; }
+
+/* How far the box reaches along that axis. */
+static inline span reach_level(const body *k, int i)
+{
+    return span_times((span){half_of(k, i) * k->grain, 0, 0}, (span){size(entry_of(k, i)), 0, 0});
+}
+
+/* All that is there came to the frame without rounding. */
+static int are_whole(const difference *d, const shape *a, const shape *b)
+{
+    int r = is_way_whole(d, a, b);
+    for (int i = 0; i < DIM; i++) {
+        r &= is_whole(half_of(&d->a, i), half_of(&d->a, i) * d->a.grain);
+        r &= is_whole(half_of(&d->b, i), half_of(&d->b, i) * d->b.grain);
+    }
+    return r;
+}
+
+/* The point of the box that is the share s out, along that axis of the frame, in the box's own length. */
+static inline real level_point(const body *k, int i, real s)
+{
+    return (entry_of(k, i) < 0 ? -s : s) * (half_of(k, i) * k->grain);
+}
+
+/* The depth of such boxes: the least of how deep they are along each axis, in numbers that know how far they are off. A
+ * look at a few numbers, before anything is asked; 0: they are none such, or apart. */
+static int tell_level(search *q, const shape *a, const shape *b, const goal *g, result *r)
+{
+    difference *d = &q->d;
+    int at = -1;
+    real lower = 0, least = REAL_MAX, sign[DIM], share[DIM];
+    twin deep = {REAL_MAX, 0};
+    vec x, y;
+    if (d->wild || !(g->radius < PLAIN) || !is_in_line(&d->a) || !is_in_line(&d->b)) return 0;
+    know_offset(d, a, b);
+    for (int i = 0; i < DIM; i++) {
+        const real c = d->c.c[i];
+        sign[i] = c < 0 ? -1 : 1;
+        const span both = span_plus(reach_level(&d->a, i), reach_level(&d->b, i), 1);
+        const span h = span_plus(both, (span){c, d->c_low.c[i], 0}, -sign[i]);
+        const real floor = below(h.high, h.low - 2 * h.off, 0);
+        if (!(floor >= 0)) return 0;
+        least = smaller(floor, least);
+        share[i] = both.high > 0 ? larger(-1, smaller(1, c / both.high)) : 0;
+        if (!is_lower_twin((twin){h.high, h.low}, deep)) continue;
+        deep = (twin){h.high, h.low};
+        lower = below(0 - h.high, -h.low - 2 * h.off, 0);
+        at = i;
+    }
+    if (!are_whole(d, a, b)) return 0;
+    share[at] = sign[at];
+    EACH(x.c[i] = level_point(&d->a, i, share[i]); y.c[i] = -level_point(&d->b, i, share[i]));
+    spell_boxes(q, a, b, lower, 0 - least, deep, axis(at, sign[at]), x, y, r);
     return 1;
 }
 
