@@ -80,8 +80,9 @@ static void whichever_way(void **state)
         }
         size_t best = farthest_of_few(&l, d, WARY), first = farthest_of_few(&l, d, HASTY);
         assert_true(best < l.count);
-        assert_true(farthest_in_runs(&l, d, 0) == best);
-        assert_true(farthest_in_runs(&l, d, 1) == best);
+        assert_true(farthest_in_runs(&l, d, CAREFUL) == best);
+        assert_true(farthest_in_runs(&l, d, WARY) == best);
+        assert_true(farthest_in_runs(&l, d, HASTY) == first);
         assert_true(farthest_of_few(&l, d, CAREFUL) == best);
         assert_true(farthest_of_few(&l, d, FIRST_SIGHT) == first);
         for (size_t k = 0; k < l.count; k++) {
@@ -111,7 +112,7 @@ static void no_numbers(void **state)
         v[(size_t)at * l.step + (size_t)axis_of] = nones[i % 3];
         assert_true(farthest_of_few(&l, d, FIRST_SIGHT) == l.count);
         assert_true(farthest_of_few(&l, d, WARY) == l.count);
-        assert_true(farthest_in_runs(&l, d, 1) == l.count);
+        assert_true(farthest_in_runs(&l, d, WARY) == l.count);
     }
 }
 
@@ -127,7 +128,8 @@ static void no_sum(void **state)
         l.reach *= 1 / (8 * REAL_MIN);
         assert_true(farthest_of_few(&l, d, FIRST_SIGHT) == first);
         assert_true(farthest_of_few(&l, d, WARY) == best);
-        assert_true(farthest_in_runs(&l, d, 1) == best);
+        assert_true(farthest_in_runs(&l, d, WARY) == best);
+        assert_true(farthest_in_runs(&l, d, HASTY) == first);
     }
 }
 

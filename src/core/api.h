@@ -261,7 +261,7 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
 {
     usual_room own;
     goal here = scaled(g, q->d.scale);
-    depth d = {.q = q, .a = a, .b = b, .g = &here, .dropped.least = REAL_MAX};
+    depth d = {.q = q, .a = a, .b = b, .g = &here, .dropped.least = REAL_MAX, .least = REAL_MAX};
     d.p = o->workspace ? polytope_in(o->workspace, tips_in(o->workspace_bytes)) : polytope_in(&own, USUAL_TIPS);
     if (q->met) *upper = smaller(*upper, 0);
     enum end end = fathom(&d, upper, weight);

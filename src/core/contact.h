@@ -268,6 +268,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     enum end end = first_surface(d);
     int flat = d->p.facets == 0;
     if (end == OPEN && !flat) end = deepen(d);
+    if (end == OPEN) raise_kept(d);
     if (end == FAULT) return end;
     if (d->floor && d->floor->rough == ROUGH) sharpen_facet(&d->p, d->floor);
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);

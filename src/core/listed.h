@@ -162,7 +162,7 @@ static int ask_anew(difference *d, vec v, int hasty, vertex *p)
     if (!d->wild) return ask_plainly(d, v, hasty ? FIRST_SIGHT : WARY, p);
     if (!ask_first(d, v, p, reach)) return 0;
     d->calls -= hasty ? 2 : 0; /* those of before were for the data */
-    if (hasty) return ask_with(d, v, HASTY, p);
+    if (hasty) return ask_with(d, v, FIRST_SIGHT, p);
     p->w = corner_of(d, p->x, p->y);
     return 1;
 }

@@ -37,10 +37,13 @@ typedef struct depth {
     const shape *a, *b;
     const goal *g;
     polytope p;
-    facet *floor;       /* the lowest facet, at the end */
-    tally dropped;      /* of facets that the surface has but the polytope no longer */
-    vec along;          /* the direction asked last, of known corners to all digits, */
-    real below;         /*   and the bound from below that it gave */
+    facet *floor;  /* the lowest facet, at the end */
+    tally dropped; /* of facets that the surface has but the polytope no longer */
+    vec along;     /* the direction asked last, of known corners to all digits, */
+    real below;    /*   and the bound from below that it gave */
+    real least;    /* of known corners the least height seen of A - B, by rounded numbers, the way along which, */
+    vec least_way; /*   and the corner there */
+    vec least_at;
     outlook sight;      /* and what is looked along */
     real near;          /* the value is in the middle between there and the bound from below */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
@@ -55,17 +58,25 @@ static tip tip_of(const vertex *c, int known)
     return t;
 }
 
-/* The corner farthest along n. 0: a support's answer was none. */
-static int ask_along(depth *d, vec n, tip *t)
+/* The corner farthest along n; of known ones any that is about as far, true heights tell in the end. 0: a support's
+ * answer was none. */
+static int seek_along(depth *d, vec n, tip *t)
 {
     vertex c;
-    vec v = mul(n, -1);
-    d->q->steps++;
+    const vec v = mul(n, -1);
     difference *f = &d->q->d;
-    int plain = !f->wild && f->a.asked != BY_CALL && f->b.asked != BY_CALL;
-    if (!(plain ? ask_plainly(f, v, CAREFUL, &c) : ask(f, v, &c))) return 0;
-    raise(d->q, v, c.w);
+    const int plain = d->g->exact && !f->wild && f->a.asked != BY_CALL && f->b.asked != BY_CALL;
+    d->q->steps++;
+    if (!(plain ? ask_plainly(f, v, HASTY, &c) : ask_with(f, v, d->g->exact ? HASTY : CAREFUL, &c))) return 0;
     *t = tip_of(&c, d->g->exact);
+    return 1;
+}
+
+/* The same, and the bound from below that comes of it. */
+static int ask_along(depth *d, vec n, tip *t)
+{
+    if (!seek_along(d, n, t)) return 0;
+    raise(d->q, mul(n, -1), t->w);
     return 1;
 }
 
@@ -139,9 +150,20 @@ static twin settle_held(held *s, const slope g[DIM], real grain, real least)
     return most;
 }
 
+/* Of long lists runs of points that are all lower than that are passed over: how many, from at on. */
+static inline size_t lower_runs(const list *l, const real *at, size_t left, vec n, real least)
+{
+    const lanes most = in_all(least);
+    const ways way = ways_of(n);
+    lanes none = in_all(0);
+    size_t k = 0;
+    while (k + RUN < left && !any_as_large(highest_in_run(at + k * l->step, l->step, &way, &none), most)) k += RUN;
+    return k;
+}
+
 /* Of the body's corners the one farthest along g, and its height from the body's own origin. Rounded heights tell which
- * it can't be. */
-static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], vec *x)
+ * it can't be. near: a corner that is about as far, if one is known. */
+static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], const vec *near, vec *x)
 {
     vec rough;
     const real grain = k->grain;
@@ -152,16 +174,23 @@ static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], v
     }
     const list l = corners_of(s);
     const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
-    real least = -REAL_MAX;
+    const int many = l.count >= MANY && !unruly(grain);
+    real least = near ? dot(mul(*near, grain), rough) - margin : -REAL_MAX;
+    size_t i = 0;
     held some;
     some.n = 0;
-    for (size_t i = 0; i < l.count; i++, at += l.step) {
-        real about = dot(mul(load(at), grain), rough);
-        if (about < least) continue;
-        least = larger(about - margin, least);
-        if (some.n == HELD) settle_held(&some, g, grain, least);
-        some.at[some.n] = at;
-        some.about[some.n++] = about;
+    some.at[0] = at;
+    while (i < l.count) {
+        const size_t lower = many ? lower_runs(&l, at, l.count - i, mul(rough, grain), least) : 0;
+        const size_t end = many && l.count - i - lower > RUN ? i + lower + RUN : l.count;
+        for (i += lower, at += lower * l.step; i < end; i++, at += l.step) {
+            real about = dot(mul(load(at), grain), rough);
+            if (about < least) continue;
+            least = larger(about - margin, least);
+            if (some.n == HELD) settle_held(&some, g, grain, least);
+            some.at[some.n] = at;
+            some.about[some.n++] = about;
+        }
     }
     twin most = settle_held(&some, g, grain, least);
     *x = load(some.at[0]);
@@ -199,13 +228,13 @@ static inline twin height_between(const outlook *s, twin x, twin y)
     return sum_of(h.high, h.low - h.high * s->excess);
 }
 
-/* The height of A - B along n, and the corner there: its x and y. */
-static twin fine_height(depth *d, vec n, vertex *c)
+/* The height of A - B along n, and the corner there: its x and y. near: one that is about as far, if any is known. */
+static twin fine_height(depth *d, vec n, const tip *near, vertex *c)
 {
     const difference *f = &d->q->d;
     look_along(d, n);
-    twin x = farthest_corner(&f->a, d->a, d->sight.a, &c->x);
-    return height_between(&d->sight, x, farthest_corner(&f->b, d->b, d->sight.b, &c->y));
+    twin x = farthest_corner(&f->a, d->a, d->sight.a, near ? &near->x : NULL, &c->x);
+    return height_between(&d->sight, x, farthest_corner(&f->b, d->b, d->sight.b, near ? &near->y : NULL, &c->y));
 }
 
 /* The least height of the facet's corners, along its normal, which is looked along. */
@@ -326,9 +355,9 @@ static void polish_facet(depth *d, facet *f)
 }
 
 /* The bound from below along a unit n, without the rounding of corners, and the corner there. */
-static real fine_bound(depth *d, vec n, vertex *c)
+static real fine_bound(depth *d, vec n, const tip *near, vertex *c)
 {
-    twin h = fine_height(d, n, c);
+    twin h = fine_height(d, n, near, c);
     d->along = n;
     d->below = -h.high - 2 * UNIT * size(h.high) - h.low - 256 * UNIT * UNIT;
     return d->below;
@@ -337,7 +366,7 @@ static real fine_bound(depth *d, vec n, vertex *c)
 static void bound_along(depth *d, vec n)
 {
     vertex c;
-    real lower = same(n, d->along) ? d->below : fine_bound(d, n, &c);
+    real lower = same(n, d->along) ? d->below : fine_bound(d, n, NULL, &c);
     if (!(lower > d->q->lower)) return;
     d->q->lower = lower;
     d->q->normal = n;
@@ -636,7 +665,7 @@ static int is_beyond(depth *d, facet *f, tip *t)
     if (fresh && sees(&d->p, f, t) && !is_known(&d->p, t)) return 1;
     if (!d->g->exact) return 0;
     if (f->rough == ROUGH) polish_facet(d, f);
-    fine_bound(d, f->n, &c);
+    fine_bound(d, f->n, t, &c);
     for (int i = 0; i < DIM; i++)
         if (same(d->p.tip[f->v[i]].x, c.x) && same(d->p.tip[f->v[i]].y, c.y)) return 0;
     c.w = corner_of(&d->q->d, c.x, c.y);
@@ -644,25 +673,48 @@ static int is_beyond(depth *d, facet *f, tip *t)
     return sees(&d->p, f, t) && !is_known(&d->p, t);
 }
 
+/* Takes note of the bound from below that the corner t gives, the farthest along the facet's n. Whether that is close
+ * enough. Of known corners all bounds from below are made anew in the end: only the lowest height is kept till then. */
+static int is_bounded_by(depth *d, const facet *f, const tip *t)
+{
+    search *q = d->q;
+    if (d->g->exact && !d->g->early) {
+        const real height = dot(f->n, t->w);
+        if (!(height < d->least)) return 0;
+        d->least = height;
+        d->least_way = f->n;
+        d->least_at = t->w;
+        return 0;
+    }
+    const real best = q->lower;
+    const vec normal = q->normal;
+    q->lower = -REAL_MAX;
+    raise(q, mul(f->n, -1), t->w);
+    if (!d->g->exact) {
+        d->along = f->n;
+        d->below = q->lower;
+    }
+    if (close_enough(d, f, q->lower)) return 1;
+    if (q->lower < best) {
+        q->lower = best;
+        q->normal = normal;
+    }
+    return 0;
+}
+
+/* The bound from below that has been kept. */
+static void raise_kept(depth *d)
+{
+    if (d->least < REAL_MAX) raise(d->q, mul(d->least_way, -1), d->least_at);
+}
+
 /* Takes in the corner beyond the facet, or the facet is done. CLOSE: what lies there is of no account; the bound from
  * below is the facet's own then. OPEN: there is no room. */
 static enum end look_beyond(depth *d, facet *f)
 {
     tip t;
-    search *q = d->q;
-    real best = q->lower;
-    vec normal = q->normal;
-    q->lower = -REAL_MAX;
-    if (!ask_along(d, f->n, &t)) return FAULT;
-    if (!d->g->exact) {
-        d->along = f->n;
-        d->below = q->lower;
-    }
-    if (close_enough(d, f, q->lower)) return CLOSE;
-    if (q->lower < best) {
-        q->lower = best;
-        q->normal = normal;
-    }
+    if (!seek_along(d, f->n, &t)) return FAULT;
+    if (is_bounded_by(d, f, &t)) return CLOSE;
     enum growth grown = is_beyond(d, f, &t) ? grow(&d->p, f, &t) : LOWERED;
     if (grown == LOWERED) f->done = 1;
     return grown == FULL ? OPEN : STILL;
@@ -671,6 +723,7 @@ static enum end look_beyond(depth *d, facet *f)
 /* Drops what lies above the bound from below, which the depth does not. */
 static void make_room(depth *d)
 {
+    raise_kept(d);
     mark_above(&d->p, -d->q->lower);
     for (int k = 0; k < d->p.facets; k++)
         if (d->p.facet[k].gone) {

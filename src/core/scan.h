@@ -126,8 +126,23 @@ static APART int are_numbers(const list *l, vec d)
 /* A sum of heights is finite only if every height, and with it every point, is; it need not be if they are. */
 static inline int has_none(const list *l, vec d, real sum) { return !(sum * 0 == 0) && !are_numbers(l, d); }
 
+/* The first of the highest, and nothing else. */
+HOT size_t first_of_few(const list *l, vec d)
+{
+    const real *x = l->v;
+    real highest = dot(load(x), d);
+    size_t at = 0;
+    for (size_t i = 1; i < l->count; i++) {
+        real height = dot(load(x += l->step), d);
+        at = height > highest ? i : at;
+        highest = larger(height, highest);
+    }
+    return at;
+}
+
 HOT size_t farthest_of_few(const list *l, vec d, enum care care)
 {
+    if (care == HASTY && l->count > 3) return first_of_few(l, d);
     const real *x = l->v;
     summit s = {dot(load(x), d), -REAL_MAX, 0};
     real sum = s.highest;
@@ -192,7 +207,7 @@ static inline size_t first_of_height(const list *l, vec d, real height)
 /* As many runs as indices count; points beyond these are looked at one by one. */
 #define MOST_RUNS 0x7fffffffu
 
-HOT size_t farthest_in_runs(const list *l, vec d, int strangers)
+HOT size_t farthest_in_runs(const list *l, vec d, enum care care)
 {
     const size_t step = l->step, runs = l->count / RUN < MOST_RUNS ? l->count / RUN : MOST_RUNS;
     const real *x = l->v;
@@ -209,19 +224,21 @@ HOT size_t farthest_in_runs(const list *l, vec d, int strangers)
         sum += height;
         s = see(s, height, i);
     }
-    if (strangers && has_none(l, d, sum)) return l->count;
+    if (is_of_strangers(care) && has_none(l, d, sum)) return l->count;
     if (s.second == s.highest) s.at = first_of_height(l, d, s.highest);
-    return settle_summit(l, d, s);
+    return care == HASTY ? s.at : settle_summit(l, d, s);
 }
 
-static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, 1); }
-static APART size_t farthest_of_many_numbers(const list *l, vec d) { return farthest_in_runs(l, d, 0); }
+static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, WARY); }
+static APART size_t farthest_of_many_numbers(const list *l, vec d) { return farthest_in_runs(l, d, CAREFUL); }
+static APART size_t farthest_of_many_in_haste(const list *l, vec d) { return farthest_in_runs(l, d, HASTY); }
 
-/* Farthest of the points, the first among equals; of strangers their count if one is not finite. Of many, and of so few
- * as a segment or a triangle has, almost equals are told apart in any case. */
+/* Farthest of the points, the first among equals; of strangers their count if one is not finite. Of many at first
+ * sight, and of so few as a segment or a triangle has, almost equals are told apart in any case. */
 HOT size_t farthest_among(const list *l, vec d, enum care care)
 {
     if (l->count < MANY) return farthest_of_few(l, d, care);
+    if (care == HASTY) return farthest_of_many_in_haste(l, d);
     return is_of_strangers(care) ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
 }
 
