@@ -286,11 +286,12 @@ static APART void sharpen_facet(polytope *p, facet *f)
 #endif
 }
 
-/* Places the facet by what its tips are by rounding, if it is WIDE for that. */
-static inline int place_roughly(const polytope *p, facet *f)
+/* How tall a facet must be, to be wide for what its tips are by rounding. */
+static inline real tall_roughly(const polytope *p) { return (p->fine ? 32 * UNIT : p->noise) * ((real)0x1p-12 / UNIT); }
+
+/* Places the facet by what its tips are by rounding, if it is WIDE for that: that tall. */
+static inline int place_roughly(const polytope *p, facet *f, real tall)
 {
-    const real noise = p->fine ? 32 * UNIT : p->noise;
-    const real tall = noise * ((real)0x1p-12 / UNIT);
     const vec w0 = p->tip[f->v[0]].w, w1 = p->tip[f->v[1]].w;
 #if DIM == 2
     vec e = sub(w1, w0), n = {{e.c[1], -e.c[0]}};
@@ -310,18 +311,17 @@ static inline int place_roughly(const polytope *p, facet *f)
     return 1;
 }
 
-/* Takes the facet between these tips in. Returns its height. */
-static real put_facet(polytope *p, const int16_t v[DIM])
+/* Takes the facet between these tips in. Returns its height. tall: as above, for many facets in a row. */
+static inline real add_facet(polytope *p, const int16_t v[DIM], real tall)
 {
     facet *f = &p->facet[p->facets++];
-    for (int i = 0; i < DIM; i++) {
-        f->v[i] = v[i];
-        f->next[i] = ALONE;
-    }
+    EACH(f->v[i] = v[i]; f->next[i] = ALONE);
     f->done = f->gone = 0;
-    if (!place_roughly(p, f)) sharpen_facet(p, f);
+    if (!place_roughly(p, f, tall)) sharpen_facet(p, f);
     return f->height;
 }
+
+static void put_facet(polytope *p, const int16_t v[DIM]) { add_facet(p, v, tall_roughly(p)); }
 
 /* How far t lies beyond a tip along n; 0 where rounding leaves that open. */
 static real rise(const polytope *p, int from, const tip *t, vec n)
@@ -407,7 +407,7 @@ static real fine_side(const polytope *p, const facet *f, const tip *t)
 static seam seam_of(const polytope *p, int at, int i)
 {
     const facet *f = &p->facet[at];
-    return (seam){{f->v[i], DIM == 2 ? (int16_t)i : f->v[(i + 1) % DIM]}, (int16_t)at, f->next[i]};
+    return (seam){{f->v[i], DIM == 2 ? (int16_t)i : f->v[i == DIM - 1 ? 0 : i + 1]}, (int16_t)at, f->next[i]};
 }
 
 /* Whether they are the two sides of one. */
@@ -453,20 +453,22 @@ static real side_of(polytope *p, facet *f, tip *t)
 
 /* Whether the facet next to the rim goes too: t sees it; or, as far as can be told, is in its plane, and a new facet
  * from the seam to t would lie on it, folded back. */
-static int goes_too(polytope *p, facet *f, seam s, tip *t)
+static inline int goes_too(polytope *p, facet *f, seam s, tip *t)
 {
-    real r = side_of(p, f, t);
+    const real above = rough_rise(f, t);
+    if (is_clear(f, above)) return above > 0;
+    const real r = side_of(p, f, t);
     return r > 0 || (r == 0 && is_on_side(p, f, s, t));
 }
 
-static real put_facet_on(polytope *p, seam r, int t)
+static inline real put_facet_on(polytope *p, seam r, int t, real tall)
 {
 #if DIM == 2
     int16_t v[2] = {r.v[1] ? (int16_t)t : r.v[0], r.v[1] ? r.v[0] : (int16_t)t};
 #else
     int16_t v[3] = {r.v[0], r.v[1], (int16_t)t};
 #endif
-    return put_facet(p, v);
+    return add_facet(p, v, tall);
 }
 
 /* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
@@ -503,7 +505,8 @@ static int take_out(polytope *p, int at)
     p->facet[s.next].gone = 1;
     for (int k = DIM - 1; k > 0; k--) {
         seam r = seam_of(p, s.next, i + k < DIM ? i + k : i + k - DIM);
-        int other = r.next != WALL && p->facet[r.next].gone ? other_side(p, r) : p->rims;
+        int other = p->rims;
+        if (r.next != WALL && p->facet[r.next].gone) other = other_side(p, r);
         if (other < p->rims) {
             drop_seam(p, other);
             at -= other < at;
@@ -544,11 +547,10 @@ static void tell_next(polytope *p, int at, int i)
 }
 
 /* A facet that was put on the rim takes the place there of the one that is gone. */
-static void tie_to_rim(polytope *p, int at, seam r)
+static inline void tie_to_rim(polytope *p, int at, seam r)
 {
-    int i = DIM == 2 ? r.v[1] : 0;
-    p->facet[at].next[i] = r.next;
-    tell_next(p, at, i);
+    p->facet[at].next[DIM == 2 ? r.v[1] : 0] = r.next;
+    if (r.next != WALL) p->facet[r.next].next[seam_to(p, r.next, r)] = (int16_t)at;
 }
 
 /* The seams of a facet put on r that end at the new tip: one that leads there, and one that leads from there. */
@@ -562,15 +564,16 @@ static int comes_before(seam r, seam other) { return DIM == 2 ? r.v[1] == 0 && o
  * after it, which as a rule comes next. Where tips are passed more often than once any pairing will do. */
 static void join_all(polytope *p)
 {
-    for (int a = 0; a < p->rims; a++)
-        for (int n = 0, b = a; n < p->rims; n++) {
-            b = b + 1 < p->rims ? b + 1 : 0;
-            seam from = p->rim[a], to = p->rim[b];
-            if (!comes_before(from, to)) continue;
-            int16_t *next = &p->facet[from.of].next[seam_there(from)], *back = &p->facet[to.of].next[seam_back(to)];
+    const int rims = p->rims;
+    for (int a = 0; a < rims; a++)
+        for (int n = 0, b = a; n < rims; n++) {
+            b = b + 1 < rims ? b + 1 : 0;
+            const seam *from = &p->rim[a], *to = &p->rim[b];
+            if (!comes_before(*from, *to)) continue;
+            int16_t *next = &p->facet[from->of].next[seam_there(*from)], *back = &p->facet[to->of].next[seam_back(*to)];
             if (*back != ALONE) continue;
-            *next = to.of;
-            *back = from.of;
+            *next = to->of;
+            *back = from->of;
             break;
         }
 }
@@ -590,12 +593,13 @@ static void sweep(polytope *p)
  * Seams of the rim know them from then on. */
 static void settle_in(polytope *p, int before, int outs)
 {
+    const int rims = p->rims;
     int end = before;
-    for (int k = 0; k < p->rims; k++) {
+    for (int k = 0; k < rims; k++) {
         int at = p->rim[k].of;
         if (p->facet[at].gone) outs--;
         else at = end++;
-        p->facet[at] = p->facet[before + k];
+        if (at != before + k) p->facet[at] = p->facet[before + k];
         tie_to_rim(p, at, p->rim[k]);
         p->rim[k].of = (int16_t)at;
     }
@@ -626,8 +630,10 @@ static enum growth grow(polytope *p, facet *f, tip *t)
     if (p->tips == p->most_tips || before + 2 > p->most_facets) return FULL;
     int outs = clear_way(p, (int)(f - p->facet), t);
     enum growth end = p->rims == 0 ? LOWERED : before + p->rims > p->most_facets ? FULL : GROWN;
-    p->tip[p->tips] = *t;
-    for (int k = 0; k < p->rims && end == GROWN; k++) least = smaller(put_facet_on(p, p->rim[k], p->tips), least);
+    const int rims = end == GROWN ? p->rims : 0, at = p->tips;
+    const real tall = tall_roughly(p);
+    p->tip[at] = *t;
+    for (int k = 0; k < rims; k++) least = smaller(put_facet_on(p, p->rim[k], at, tall), least);
     if (end == GROWN && !p->without_rounding && height > 0 && !(least >= height - 64 * UNIT) &&
         !(sharpen_new(p, before) >= height - 64 * UNIT))
         end = LOWERED;
