@@ -390,7 +390,8 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
     int still = end == STILL || end == INSIDE;
     /* the distance of known corners needs no probing, the exact finish tells more; overlap does */
     int probed = still && !g->deep && (g->sign_only || !g->exact);
-    int tried = still && g->exact && !o->tight && is_doubtful(q, g, upper);
+    int met = g->deep && upper < 0; /* for certain: how deep is all that is open */
+    int tried = still && g->exact && !o->tight && !met && is_doubtful(q, g, upper);
     int settled = tried && settle_near(q, a, b, g, weight, &upper, r);
     if (q->told) return STILL;
     if (end == FAULT || (probed && !settled && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;

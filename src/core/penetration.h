@@ -581,6 +581,22 @@ static void count_height(const depth *d, const facet *f, tally *t)
     t->least = smaller(floor > -REAL_MAX ? floor : floor_of(d, f), t->least);
 }
 
+/* Whether the origin is on the inner side of the facet for certain, with all that its corners may have been rounded
+ * (docs/bounds.md). */
+static inline int is_inner_for_certain(const polytope *p, const facet *f)
+{
+    if (f->form != WIDE) return 0;
+    if (f->height > CLEAR) return 1;
+    const vec a = way_to(&p->tip[f->v[0]], &p->tip[f->v[1]]);
+#if DIM == 2
+    const real edges = length(a), area = edges, slop = 64 * (1 + edges);
+#else
+    const vec b = way_to(&p->tip[f->v[0]], &p->tip[f->v[2]]);
+    const real edges = length(a) + length(b), area = length(cross(a, b)), slop = 32 * edges * (2 + edges);
+#endif
+    return f->height * area > slop * UNIT;
+}
+
 /* Counts the solid angle under which the origin sees the facet. One whose side is certain counts for more than 0; one
  * too narrow to tell counts for little, either way. */
 static void count_angle(depth *d, facet *f, tally *t)
@@ -618,7 +634,7 @@ static int goes_around(depth *d, real least)
         all.least = least;
         for (int k = 0; k < d->p.facets; k++) {
             facet *f = &d->p.facet[k];
-            if (!measured && f->form == WIDE && f->height > CLEAR) all.proven++;
+            if (!measured && is_inner_for_certain(&d->p, f)) all.proven++;
             else count_angle(d, f, &all);
         }
         if (surrounds(&all)) return 1;
