@@ -658,6 +658,94 @@ static void a_gap_needs_no_walk(void **state)
     assert_true(apart > PAIRS / 4 && at_once > apart * 95 / 100);
 }
 
+/* A turn of few digits, and a stretch: its axes are not of length 1, and hardly square to each other. */
+static void draw_rough_turn(real m[DIM * DIM])
+{
+    const double grid = ldexp(1, (MANTISSA + 9) / 2), stretched = any_between(1, 2);
+    draw_turn(m);
+    for (int i = 0; i < DIM * DIM; i++) m[i] = (real)(floor((double)m[i] * grid + 0.5) / grid * stretched);
+}
+
+/* What such boxes tell of a gap that is small beside them is off by hardly more than the gap rounds. */
+static void a_gap_of_skew_boxes_is_exact(void **state)
+{
+    double worst = 0;
+    long told = 0;
+    (void)state;
+    state_of_draws = 16;
+    for (int k = 0; k < PAIRS; k++) {
+        static const options exact = {.size = sizeof exact, .tight = 1};
+        const double gap = pow(10, any_between(-2, 0));
+        result r, truth;
+        for (int i = 0; i < 2; i++) {
+            for (int j = 0; j < DIM; j++) {
+                boxes[i].half[j] = any_real((real)0.1, 1);
+                poses[i].p[j] = any_real(0, 4);
+            }
+            draw_rough_turn(poses[i].m);
+            shapes[i] = (shape){pub(support_box), &boxes[i], &poses[i], 0};
+        }
+        assert_int_equal(pub(distance)(&shapes[0], &shapes[1], NULL, &r), GJK_OK);
+        if (!(r.lower > (real)gap)) continue;
+        for (int j = 0; j < DIM; j++) poses[1].p[j] -= (r.lower - (real)gap) * r.normal[j];
+        assert_int_equal(pub(distance)(&shapes[0], &shapes[1], NULL, &r), GJK_OK);
+        assert_int_equal(pub(distance)(&shapes[0], &shapes[1], &exact, &truth), GJK_OK);
+        if (r.steps > 1) continue;
+        worst = fmax(worst, fabs((double)r.value - (double)truth.value) / (double)UNIT - 2 * gap);
+        told++;
+    }
+    printf("off by %.3f u at most\n", worst);
+    assert_true(told > PAIRS / 4 && worst < 0.125);
+}
+
+/* Turned about the second axis, and before that on an edge, or not; its first axis leads up by roundings. */
+static void draw_slope(real m[DIM * DIM], int on_edge)
+{
+    const double turned = DIM == 3 ? any_between(-3, 3) : 0, c = cos(turned), s = sin(turned),
+                 h = on_edge ? sqrt(0.5) : 0;
+    const double uphill = any_between(-256, 256) * (double)UNIT, up = on_edge && DIM == 3 ? h : 1;
+    for (int i = 0; i < DIM * DIM; i++) m[i] = 0;
+    m[0] = (real)c;
+    m[DIM] = (real)uphill;
+    m[1] = (real)(DIM == 3 ? -s * h : -uphill);
+    m[DIM + 1] = (real)up;
+    if (DIM == 3) {
+        m[2 * DIM] = (real)s;
+        m[2 * DIM + 1] = (real)(c * h);
+        m[DIM - 1] = (real)(-s * up);
+        m[2 * DIM - 1] = (real)-h;
+        m[3 * DIM - 1] = (real)(c * up);
+    }
+}
+
+/* A face or an edge over a face, off parallel to it by so little that the bracket hardly tells: the lowest point is a
+ * corner all the same. */
+static void a_slope_of_roundings_is_seen(void **state)
+{
+    double worst = 0;
+    long told = 0;
+    (void)state;
+    state_of_draws = 17;
+    for (int k = 0; k < PAIRS; k++) {
+        static const options exact = {.size = sizeof exact, .tight = 1};
+        result r, truth;
+        for (int i = 0; i < 2; i++) {
+            for (int j = 0; j < DIM; j++) {
+                boxes[i].half[j] = any_real((real)0.25, 1);
+                poses[i].p[j] = i == 0 ? 0 : j == 1 ? any_real(2, 3) : any_real(-1, 1);
+            }
+            shapes[i] = (shape){pub(support_box), &boxes[i], i == 0 ? NULL : &poses[i], 0};
+        }
+        draw_slope(poses[1].m, k % 2);
+        assert_int_equal(pub(distance)(&shapes[0], &shapes[1], NULL, &r), GJK_OK);
+        assert_int_equal(pub(distance)(&shapes[0], &shapes[1], &exact, &truth), GJK_OK);
+        worst = fmax(worst, fabs((double)r.value - (double)truth.value) / (double)UNIT);
+        told += r.steps == 1;
+    }
+    printf("off by %.3f u at most, %ld at once\n", worst, told);
+    assert_true(told > PAIRS / 8 && worst <= 8);
+}
+
 /* Squares of lengths near the root of the largest number: sets off their own positions, in a unit so large, answer as
  * they do in their own. */
 static void a_glance_sees_no_overflow(void **state)
@@ -813,6 +901,8 @@ int main(void)
         cmocka_unit_test(axes_need_no_frame),
         cmocka_unit_test(skew_axes_need_no_frame),
         cmocka_unit_test(a_gap_needs_no_walk),
+        cmocka_unit_test(a_gap_of_skew_boxes_is_exact),
+        cmocka_unit_test(a_slope_of_roundings_is_seen),
         cmocka_unit_test(a_glance_sees_no_overflow),
         cmocka_unit_test(spans_know_how_far_they_are_off),
         cmocka_unit_test(a_sign_is_certain),

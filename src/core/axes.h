@@ -19,6 +19,7 @@ typedef struct gauge {
     vec unit[2]; /* 1 along an axis, in a box's own coordinates times their grain */
     vec t, s;    /* the way from a's middle to b's: along a's axes, and along b's */
     vec r[DIM];  /* r[i].c[j]: a's axis i along b's axis j */
+    int brought; /* the axes were not of length 1: unit is no power of two then */
     int framed;  /* in the frame; else in the caller's lengths, of turned boxes only */
 } gauge;
 
@@ -50,6 +51,7 @@ static int bring_to_length(gauge *k)
         k->unit[i / DIM].c[i % DIM] /= l;
     }
     k->off = 0;
+    k->brought = 1;
     return skew_of(k, 0) + skew_of(k, 1) < (real)0x1p-10;
 }
 
@@ -69,6 +71,7 @@ static APART int take_gauge_in_frame(gauge *k, const difference *d)
     take_axes(&z, 0, &d->a, level_of_axes(&d->a));
     take_axes(&z, 1, &d->b, level_of_axes(&d->b));
     k->framed = 1;
+    k->brought = 0;
     for (int i = 0; i < AXES; i++) k->u[i] = z.u[i];
     EACH(k->uu[0].c[i] = z.uu[i]; k->uu[1].c[i] = z.uu[DIM + i]; k->e.c[i] = z.e[i]; k->f.c[i] = z.e[DIM + i];
          k->unit[0].c[i] = z.level[0]; k->unit[1].c[i] = z.level[1]);
@@ -80,7 +83,7 @@ static APART int take_gauge_in_frame(gauge *k, const difference *d)
 /* The same of boxes that see the way between them as t and s, and whose squared axes are known. */
 static inline int take_gauge(gauge *k, const difference *d, vec t, vec s, const vec uu[2])
 {
-    k->framed = 0;
+    k->framed = k->brought = 0;
     EACH(for (int j = 0; j < DIM; j++) {
         k->u[i].c[j] = d->a.posed ? d->a.m[DIM * j + i] : i == j;
         k->u[DIM + i].c[j] = d->b.posed ? d->b.m[DIM * j + i] : i == j;

@@ -28,6 +28,12 @@ static inline int only_axis(unsigned axes)
 
 static inline int face_at(unsigned axes) { return only_axis(~axes & ((1u << DIM) - 1)); }
 
+/* The points may slide along an edge of one box and a face of the other, say: these are not known to be parallel. */
+static inline int may_slide(unsigned free_a, unsigned free_b)
+{
+    return free_a && free_b && (DIM == 2 || !(only_axis(free_a) >= 0 && only_axis(free_b) >= 0));
+}
+
 #if DIM == 3
 /* Of the lines along an axis of each box, through x and through y, the points nearest to each other, as far as they are
  * in the boxes. */
@@ -77,12 +83,6 @@ static int start_at_edges(const gauge *k, real least, vec *x, vec *y)
     *x = clamped(seen_from_a(k, *y), k->e);
     return 1;
 }
-
-/* Turns have come to no end: the points slide along an edge of one box and a face of the other, say. */
-static inline int is_sliding(unsigned free_a, unsigned free_b)
-{
-    return free_a && free_b && !(only_axis(free_a) >= 0 && only_axis(free_b) >= 0);
-}
 #endif
 
 /* The nearest points, where the least of the heights along the axes is at. 0: there is no gap wider than least. */
@@ -91,7 +91,7 @@ static inline int find_nearest(const gauge *k, int at, real height, real least, 
     const int faced = height < -least;
     if (faced) start_at_face(k, at, x, y);
 #if DIM == 3
-    if (!faced || is_sliding(free_axes(*x, k->e), free_axes(*y, k->f))) {
+    if (!faced || may_slide(free_axes(*x, k->e), free_axes(*y, k->f))) {
         if (!start_at_edges(k, least, x, y) && !faced) return 0;
     }
     const int of_a = only_axis(free_axes(*x, k->e)), of_b = only_axis(free_axes(*y, k->f));
@@ -138,12 +138,13 @@ static vec way_between(const gauge *k, vec w, unsigned free_a, unsigned free_b)
     return dot(l, w) < 0 ? mul(l, -1) : l;
 }
 
-/* The corner in the spare slot lies on the same faces of the box as the point x, a length along its axes. */
-static inline int is_beside(const body *k, vec corner, vec x, vec e)
+/* The corner in the spare slot lies on the same faces of the box as the point x, a length along its axes, which is free
+ * along these. */
+static inline int is_beside(const body *k, vec corner, vec x, unsigned free)
 {
     const box *of = k->data;
     int r = 1;
-    EACH(r &= size(x.c[i]) < e.c[i] || of->half[i] == 0 || (corner.c[i] > 0) == (x.c[i] > 0));
+    EACH(r &= (free >> i & 1) || of->half[i] == 0 || (corner.c[i] > 0) == (x.c[i] > 0));
     return r;
 }
 
@@ -156,16 +157,51 @@ static int is_beneath(const search *q, vec l, const closest *p, vec low)
     return dot(l, way) > UNIT * spread(l);
 }
 
-static inline closest pair_at(const difference *d, const gauge *k, vec x, vec y)
+/* What is seen between x and y: the pair, the way without rounding, and along which axes the points are free. */
+typedef struct prospect {
+    closest p;
+    vec l;
+    unsigned free_a, free_b;
+} prospect;
+
+/* Points of the boxes, lengths along their axes, times their grain. */
+static inline void scale_points(const gauge *k, vec *x, vec *y)
 {
-    closest p = {.x_low = axis(0, 0), .y_low = axis(0, 0)};
-    EACH(p.x.c[i] = x.c[i] * k->unit[0].c[i]; p.y.c[i] = y.c[i] * k->unit[1].c[i]);
-    p.w = corner_at(d, p.x, p.y);
-    return p;
+    EACH(x->c[i] *= k->unit[0].c[i]; y->c[i] *= k->unit[1].c[i]);
 }
 
-/* The way between the points, w, is that of l, but for a rounding of the frame. */
+/* A point on the box's sides, x times its grain, is on them to the last digit. */
+static vec put_on_sides(const body *k, vec x, unsigned free)
+{
+    const box *of = k->data;
+    EACH(if (!(free >> i & 1)) x.c[i] = signed_as(of->half[i] * k->grain, x.c[i]));
+    return x;
+}
+
+/* The way w between the points is that of l, but for a rounding of the frame. */
 static inline int is_along(vec l, vec w) { return length(w) - dot(l, w) / length(l) <= UNIT; }
+
+/* 0: the way without rounding is none between these points. */
+static inline int look_between(const difference *d, const gauge *k, vec x, vec y, prospect *s)
+{
+    s->free_a = free_axes(x, k->e);
+    s->free_b = free_axes(y, k->f);
+    scale_points(k, &x, &y);
+    if (k->brought) {
+        x = put_on_sides(&d->a, x, s->free_a);
+        y = put_on_sides(&d->b, y, s->free_b);
+    }
+    s->p = (closest){.x = x, .x_low = axis(0, 0), .y = y, .y_low = axis(0, 0), .w = corner_at(d, x, y)};
+    s->l = way_between(k, s->p.w, s->free_a, s->free_b);
+    return is_along(s->l, s->p.w);
+}
+
+/* The way between the points, to rounding. */
+static inline vec way_at(const difference *d, const gauge *k, vec x, vec y)
+{
+    scale_points(k, &x, &y);
+    return corner_at(d, x, y);
+}
 
 /* What of the way w between the points is not square to the faces or edges that they lie on is taken back, where that
  * is more than rounding: a box's axes are not quite square to each other. */
@@ -191,13 +227,15 @@ static void square_up(const gauge *k, vec w, vec *x, vec *y)
     *y = clamped(*y, k->f);
 }
 
-/* Nothing is nearer along l than the points x and y, as the corner in the spare slot shows: it is beside them, or no
- * lower. */
-static inline int are_nearest(search *q, const gauge *k, vec l, vec x, vec y, const closest *p, vec low)
+/* Nothing is nearer along l than the points x and y, as the corner in the spare slot shows: it is beside them, where l
+ * is square to all that they lie on, or no lower. */
+static inline int are_nearest(search *q, vec x, vec y, const prospect *s, vec low)
 {
     const vertex *last = spare(&q->s);
-    if (is_beside(&q->d.a, last->x, x, k->e) && is_beside(&q->d.b, last->y, y, k->f)) return 1;
-    return !is_beneath(q, l, p, low);
+    if (!may_slide(s->free_a, s->free_b) && is_beside(&q->d.a, last->x, x, s->free_a) &&
+        is_beside(&q->d.b, last->y, y, s->free_b))
+        return 1;
+    return !is_beneath(q, s->l, &s->p, low);
 }
 
 /* That they are as far apart as these points. 0: that is not proven, or as near to contact as rounding blurs; then the
@@ -208,26 +246,24 @@ static int tell_nearest(search *q, const gauge *k, vec x, vec y, const shape *a,
     difference *d = &q->d;
     vertex *last = spare(&q->s);
     const int steps = q->steps + q->pending;
-    closest p = pair_at(d, k, x, y);
-    vec l = way_between(k, p.w, free_axes(x, k->e), free_axes(y, k->f));
-    if (!is_along(l, p.w)) {
-        square_up(k, p.w, &x, &y);
-        p = pair_at(d, k, x, y);
-        l = way_between(k, p.w, free_axes(x, k->e), free_axes(y, k->f));
-        if (!is_along(l, p.w)) return 0;
+    prospect s;
+    if (k->brought) square_up(k, way_at(d, k, x, y), &x, &y);
+    if (!look_between(d, k, x, y, &s)) {
+        square_up(k, s.p.w, &x, &y);
+        if (!look_between(d, k, x, y, &s)) return 0;
     }
-    const real upper = length(p.w) * (1 + 8 * UNIT) + d->doubt;
-    if (!(peak(l) > 0) || steps >= g->max_steps || !ask_on(d, l, last)) return 0;
-    q->v = l;
+    const real upper = length(s.p.w) * (1 + 8 * UNIT) + d->doubt;
+    if (!(peak(s.l) > 0) || steps >= g->max_steps || !ask_on(d, s.l, last)) return 0;
+    q->v = s.l;
     q->steps = steps;
     q->pending = 1;
-    raise(q, l, last->w);
+    raise(q, s.l, last->w);
     if (!(q->lower > g->radius + 32 * d->doubt + 16 * UNIT * g->radius) || !(upper - q->lower <= 4 * d->doubt))
         return 0;
     know_offset(d, a, b);
-    const vec low = lost_of_pair(d, &p);
-    if (!are_nearest(q, k, l, x, y, &p, low)) return 0;
-    spell_distance(q, a, b, upper, &p, low, r);
+    const vec low = lost_of_pair(d, &s.p);
+    if (!are_nearest(q, x, y, &s, low)) return 0;
+    spell_distance(q, a, b, upper, &s.p, low, r);
     r->steps = q->steps + 1;
     return 1;
 }
