@@ -6,8 +6,7 @@
 
 #include "linear.h"
 
-#if (defined(__SSE2__) || defined(_M_X64)) && !defined(GJK_NO_LANES)
-#include <emmintrin.h>
+#if HAS_LANES
 #if REAL_IS_DOUBLE
 #define LANES 2
 typedef __m128d lanes;

@@ -11,6 +11,14 @@
 
 #include "words.h"
 
+/* Whether the machine reckons several numbers at once (lanes.h). */
+#if (defined(__SSE2__) || defined(_M_X64)) && !defined(GJK_NO_LANES)
+#define HAS_LANES 1
+#include <emmintrin.h>
+#else
+#define HAS_LANES 0
+#endif
+
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "gjk proves its answers from the rules of IEEE arithmetic: build it without -ffast-math"
 #endif
@@ -74,9 +82,16 @@ typedef uint32_t bits;
 /* The least number above 0. */
 #define TINY (REAL_MIN * (2 * UNIT))
 
+/* By the instruction itself where there is one: what is called keeps track of errno for those below 0, and values that
+ * live on across a call have no registers. */
 static inline real root(real x)
 {
-#if REAL_IS_DOUBLE
+#if HAS_LANES && REAL_IS_DOUBLE
+    const __m128d r = _mm_set_sd(x);
+    return _mm_cvtsd_f64(_mm_sqrt_sd(r, r));
+#elif HAS_LANES
+    return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x)));
+#elif REAL_IS_DOUBLE
     return sqrt(x);
 #else
     return sqrtf(x);
