@@ -447,7 +447,7 @@ static points clouds[2];
 /* Two hulls, a thousandth apart. */
 static void draw_near_hulls(void)
 {
-    result r;
+    result r = {0};
     for (int k = 0; k < 2; k++) {
         shapes[k] = (shape){pub(support_points), &clouds[k], &poses[k], 0};
         for (int i = 0; i < CORNERS; i++) {
@@ -559,7 +559,7 @@ static void a_glance_needs_no_frame(void **state)
     state_of_draws = 11;
     told_apart = told_meeting = aimed = in_vain = 0;
     for (int k = 0; k < PAIRS; k++) {
-        result r;
+        result r = {0};
         draw_scattered();
         compare_glances();
         apart += pub(intersect)(&shapes[0], &shapes[1], NULL, &r) == GJK_DECIDED && r.lower > 0;
@@ -642,7 +642,7 @@ static void a_gap_needs_no_walk(void **state)
     (void)state;
     state_of_draws = 15;
     for (int k = 0; k < PAIRS; k++) {
-        result r;
+        result r = {0};
         for (int i = 0; i < 2; i++) {
             for (int j = 0; j < DIM; j++) {
                 boxes[i].half[j] = any_real((real)0.1, 1);
@@ -676,7 +676,7 @@ static void a_gap_of_skew_boxes_is_exact(void **state)
     for (int k = 0; k < PAIRS; k++) {
         static const options exact = {.size = sizeof exact, .tight = 1};
         const double gap = pow(10, any_between(-2, 0));
-        result r, truth;
+        result r = {0}, truth = {0};
         for (int i = 0; i < 2; i++) {
             for (int j = 0; j < DIM; j++) {
                 boxes[i].half[j] = any_real((real)0.1, 1);
@@ -728,7 +728,7 @@ static void a_slope_of_roundings_is_seen(void **state)
     state_of_draws = 17;
     for (int k = 0; k < PAIRS; k++) {
         static const options exact = {.size = sizeof exact, .tight = 1};
-        result r, truth;
+        result r = {0}, truth = {0};
         for (int i = 0; i < 2; i++) {
             for (int j = 0; j < DIM; j++) {
                 boxes[i].half[j] = any_real((real)0.25, 1);

@@ -522,13 +522,12 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
         q->told = q->thin == TELLING;
     }
     if (HAS_SISTER && g->sign_only && q->thin && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
-    if (q->told || tell_polygons_in_frame(q, 0, a, b, o, asked, r)) return STILL;
+    if (q->told || tell_polygons_in_frame(q, a, b, o, asked, r)) return STILL;
     if (!open_listed(q, lender_of(a, b, o, g->sign_only))) return FAULT;
     if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && g->sign_only && q->glanced != AIMED))
         q->told = look_in_frame(q, g->max_steps, a, b, r);
     if (HAS_SISTER && g->sign_only && boxes && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
     if (q->told) return BEYOND;
-    if (tell_polygons_in_frame(q, 1, a, b, o, asked, r)) return STILL;
     if (boxes && g->sign_only && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     enum end end = walk(q, a, b, g, r);
     if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
@@ -557,47 +556,53 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
     return 0;
 }
 
-GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
+/* The whole answer, of any bodies, whatever is asked. */
+static WHOLE int answer_distance(search *q, const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
     const options *o = read_options(&own, given);
-    search q;
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    list_both(&q, a, b, o);
+    list_both(q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
               .radius = radius,
               .abs_tol = o->abs_tol,
               .rel_tol = o->rel_tol,
-              .exact = are_exact(&q, a, b, o),
+              .exact = are_exact(q, a, b, o),
               .max_steps = (int)o->max_steps};
     if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
     if (radius > 0) g.within = radius * (1 - 16 * UNIT);
     g.early = radius > 0 || o->abs_tol > 0 || o->rel_tol > 0;
 
     enum end end;
-    int bad = reply_to(&q, a, b, o, &g, &end, &r);
+    int bad = reply_to(q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, o, end, &q, radius, 0);
+    r.status = distance_status(&r, o, end, q, radius, 0);
     *out = r;
     return r.status;
 }
 
-GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
+GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
+{
+    search q;
+    if (tell_at_once(&q, a, b, given, 0, out)) return out->status = GJK_OK;
+    return answer_distance(&q, a, b, given, out);
+}
+
+static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
     const options *o = check_options(&own, given);
-    search q;
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    if (list_both(&q, a, b, o) && !are_thin(&q.d) && !lender_of(a, b, o, 1))
-        q.glanced = are_boxes(a, b) ? glance_at_boxes(&q, (int)steps_of(o), a, b, out) : glance(&q, a, b, out);
-    if (q.glanced == TELLING) return out->status = GJK_DECIDED;
+    if (list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d) && !lender_of(a, b, o, 1))
+        q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, out) : glance(q, a, b, out);
+    if (q->glanced == TELLING) return out->status = GJK_DECIDED;
     o = keep_options(&own, o, given);
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
@@ -606,16 +611,23 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
               .abs_tol = -1, /* never */
               .early = radius > 0,
               .sign_only = 1,
-              .exact = are_exact(&q, a, b, o),
+              .exact = are_exact(q, a, b, o),
               .max_steps = (int)o->max_steps};
 
     enum end end;
-    int bad = reply_to(&q, a, b, o, &g, &end, &r);
+    int bad = reply_to(q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;
     return r.status;
+}
+
+GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
+{
+    search q;
+    if (tell_at_once(&q, a, b, given, 1, out)) return out->status = GJK_DECIDED;
+    return answer_intersect(&q, a, b, given, out);
 }
 
 GJK_API size_t pub(workspace_size)(uint32_t corners)
@@ -637,6 +649,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     search q;
     result r;
     if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
+    q.planar = UNTRIED;
     list_both(&q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,

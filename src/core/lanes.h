@@ -13,9 +13,11 @@ typedef __m128d lanes;
 
 static inline lanes in_all(real x) { return _mm_set1_pd(x); }
 static inline lanes sums(lanes x, lanes y) { return _mm_add_pd(x, y); }
+static inline lanes differences(lanes x, lanes y) { return _mm_sub_pd(x, y); }
 static inline lanes products(lanes x, lanes y) { return _mm_mul_pd(x, y); }
 static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_pd(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_pd(x, y); }
+static inline lanes sizes(lanes x) { return _mm_andnot_pd(_mm_set1_pd(-0.0), x); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cmpge_pd(x, y)); }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_pd(x); }
@@ -55,9 +57,11 @@ typedef __m128 lanes;
 
 static inline lanes in_all(real x) { return _mm_set1_ps(x); }
 static inline lanes sums(lanes x, lanes y) { return _mm_add_ps(x, y); }
+static inline lanes differences(lanes x, lanes y) { return _mm_sub_ps(x, y); }
 static inline lanes products(lanes x, lanes y) { return _mm_mul_ps(x, y); }
 static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_ps(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_ps(x, y); }
+static inline lanes sizes(lanes x) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), x); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_ps(_mm_cmpge_ps(x, y)); }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_ps(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_ps(x); }
@@ -115,9 +119,11 @@ typedef uint32_t indices;
 
 static inline lanes in_all(real x) { return x; }
 static inline lanes sums(lanes x, lanes y) { return x + y; }
+static inline lanes differences(lanes x, lanes y) { return x - y; }
 static inline lanes products(lanes x, lanes y) { return x * y; }
 static inline lanes larger_ones(lanes x, lanes y) { return larger(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return smaller(x, y); }
+static inline lanes sizes(lanes x) { return size(x); }
 static inline int any_as_large(lanes x, lanes y) { return x >= y; }
 static inline void part_lanes(lanes x, real r[LANES]) { r[0] = x; }
 static inline lanes join_lanes(const real x[LANES]) { return x[0]; }
@@ -132,5 +138,46 @@ static inline indices next_indices(indices n) { return n + 1; }
 static inline void part_indices(indices n, uint32_t r[LANES]) { r[0] = n; }
 static inline indices where_larger(lanes x, lanes y, indices n, indices m) { return x > y ? n : m; }
 #endif
+
+/* ---- four at a time ---- */
+
+typedef struct fours {
+    lanes part[4 / LANES];
+} fours;
+
+/* A statement for each part i of them. */
+#define EACH_PART(statement)                                                                                           \
+    for (int i = 0; i < 4 / LANES; i++) statement
+
+static inline fours fours_of(real a, real b, real c, real d)
+{
+#if LANES == 4
+    return (fours){{_mm_setr_ps(a, b, c, d)}};
+#elif LANES == 2
+    return (fours){{_mm_setr_pd(a, b), _mm_setr_pd(c, d)}};
+#else
+    return (fours){{a, b, c, d}};
+#endif
+}
+
+static inline fours sums_of(fours x, fours y)
+{
+    EACH_PART(x.part[i] = sums(x.part[i], y.part[i]));
+    return x;
+}
+
+static inline fours differences_of(fours x, fours y)
+{
+    EACH_PART(x.part[i] = differences(x.part[i], y.part[i]));
+    return x;
+}
+
+static inline fours products_of(fours x, fours y)
+{
+    EACH_PART(x.part[i] = products(x.part[i], y.part[i]));
+    return x;
+}
+
+static inline void part_fours(fours x, real r[4]) { EACH_PART(part_lanes(x.part[i], r + i * LANES)); }
 
 #endif

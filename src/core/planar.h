@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Polygons of few corners in the plane: GJK in the caller's own lengths, and with nothing in it that is not needed
- * where rounding does not blur what is asked. All corners are cluster before the first step, side by side, so that a
+ * where rounding does not blur what is asked. All corners are placed before the first step, side by side, so that a
  * step costs little. An edge's direction is square to the difference of its ends, which has lost nothing to where these
  * are; what the bounds charge is what a glance does (glance.h). Whatever is out of the ordinary is left to the walk;
  * where sizes are not plain all is done in the frame, to the same bits. */
@@ -25,18 +25,32 @@
 #define LEVEL UNIT
 #define EVIDENT 2
 
+/* Added to a number and taken away again this times a bound of it, so many upper digits are left that a product of two
+ * such, and the sum of two of these, is exact. */
+#define DIGITS_OFF ((real)((bits)3 << (MANTISSA - GRID - 1)))
+
 /* So many doubts a bracket of the distance may be wide. */
 #define MOST_WIDE 4
 
+/* The whole answer is kept out of the way of the everyday one. */
+#define WHOLE APART
+
 /* ---- the bodies ---- */
 
-/* A body's corners, where they are in the difference: the list's first run and its last, which may be one, or have some
- * corners in common; of fewer than a run some stand there again and again. */
+/* A body's corners: the list's first run and its last, which may be one, or have some corners in common; of fewer than
+ * a run some stand there again and again. */
 typedef struct cluster {
-    real c[DIM][PLACES];
-    list from;           /* the corners in the body's own coordinates; */
-    real own[RUN * DIM]; /* those of a box */
+    real at[DIM][PLACES];  /* from the body's position, */
+    real own[DIM][PLACES]; /* and in its own coordinates, times their grain */
+    const real *m;         /* its map; */
+    const list *from;      /* the corners as they are given, */
+    list of_box;           /* and those of a box: */
+    real box[RUN * DIM];
 } cluster;
+
+typedef struct scene {
+    cluster a, b;
+} scene;
 
 static inline int has_few(const body *k) { return k->asked == AS_BOX || k->list.count <= PLACES; }
 
@@ -49,14 +63,15 @@ static inline int are_planar(const difference *d)
 /* Where the corners are listed. */
 static inline void list_places(const body *k, cluster *p)
 {
-    p->from = k->list;
+    p->from = &k->list;
     if (k->asked != AS_BOX) return;
     const real *half = ((const box *)k->data)->half;
     for (int i = 0; i < RUN; i++) {
-        p->own[DIM * i] = i & 1 ? half[0] : -half[0];
-        p->own[DIM * i + 1] = i & 2 ? half[1] : -half[1];
+        p->box[DIM * i] = i & 1 ? half[0] : -half[0];
+        p->box[DIM * i + 1] = i & 2 ? half[1] : -half[1];
     }
-    p->from = (list){p->own, RUN, DIM, 0};
+    p->of_box = (list){p->box, RUN, DIM, 0};
+    p->from = &p->of_box;
 }
 
 /* Fewer than a run, again and again. */
@@ -68,59 +83,64 @@ static APART void fill_run(const list *l, real run[RUN * DIM])
     }
 }
 
-/* What places corners: the body's map of points times their grain, and how far it is from A's position. */
+/* What places corners: the body's map of points times their grain; and what no sum of a corner's coordinates is above.
+ */
 typedef struct placing {
-    lanes grain, limit, m[DIM * DIM], by[DIM];
+    lanes m[DIM * DIM], grain, limit;
 } placing;
 
-HOT placing placing_of(const body *k, vec by)
+HOT placing placing_of(const body *k, const real *m)
 {
-    static const real identity[DIM * DIM] = {1, 0, 0, 1};
-    const real *m = k->posed ? k->m : identity;
-    placing r = {.grain = in_all(k->grain), .limit = in_all(k->limit)};
+    placing r = {.grain = in_all(k->grain), .limit = in_all(smaller(k->limit * (real)1.4143, REAL_MAX))};
     for (int i = 0; i < DIM * DIM; i++) r.m[i] = in_all(m[i]);
-    for (int i = 0; i < DIM; i++) r.by[i] = in_all(by.c[i]);
     return r;
 }
 
 /* A run of them. 0: one is none, or beyond the reach. */
-HOT int place_run(const placing *k, const real *x, size_t step, real to[DIM][PLACES], size_t at)
+HOT int place_run(const placing *k, int framed, const real *x, size_t step, cluster *p, size_t at)
 {
     int fit = (1 << LANES) - 1;
-    for (size_t j = 0; j < RUN; j += LANES) {
+    for (size_t j = at; j < at + RUN; j += LANES, x += LANES * step) {
         lanes c[DIM];
-        load_lanes(x + j * step, step, c);
-        fit &= any_as_large(k->limit, larger_ones(c[0], products(c[0], in_all(-1))));
-        fit &= any_as_large(k->limit, larger_ones(c[1], products(c[1], in_all(-1))));
-        for (int i = 0; i < DIM; i++) c[i] = products(c[i], k->grain);
+        load_lanes(x, step, c);
+        fit &= any_as_large(k->limit, sums(sizes(c[0]), sizes(c[1])));
         for (int i = 0; i < DIM; i++) {
-            const lanes r = sums(products(k->m[DIM * i], c[0]), products(k->m[DIM * i + 1], c[1]));
-            part_lanes(sums(r, k->by[i]), to[i] + at + j);
+            if (framed) c[i] = products(c[i], k->grain);
+            part_lanes(c[i], p->own[i] + j);
         }
+        for (int i = 0; i < DIM; i++)
+            part_lanes(sums(products(k->m[DIM * i], c[0]), products(k->m[DIM * i + 1], c[1])), p->at[i] + j);
     }
     return fit == (1 << LANES) - 1;
 }
 
 /* All of them. */
-HOT int place_corners(const body *k, vec by, cluster *p)
+HOT int place_corners(const body *k, int framed, cluster *p)
 {
-    const placing to = placing_of(k, by);
+    static const real identity[DIM * DIM] = {1, 0, 0, 1};
+    p->m = k->posed ? k->m : identity;
+    const placing to = placing_of(k, p->m);
     real run[RUN * DIM];
-    list_places(k, p);
-    const size_t count = p->from.count, step = p->from.step;
-    if (count < RUN) {
-        fill_run(&p->from, run);
-        return place_run(&to, run, DIM, p->c, 0) & place_run(&to, run, DIM, p->c, RUN);
+    const real *first = p->from->v, *last = first;
+    size_t step = p->from->step;
+    if (p->from->count < RUN) {
+        fill_run(p->from, run);
+        first = last = run;
+        step = DIM;
+    } else {
+        last += (p->from->count - RUN) * step;
     }
-    return place_run(&to, p->from.v, step, p->c, 0) & place_run(&to, p->from.v + (count - RUN) * step, step, p->c, RUN);
+    return place_run(&to, framed, first, step, p, 0) & place_run(&to, framed, last, step, p, RUN);
 }
 
-static inline vec place_of(const cluster *p, unsigned at) { return (vec){{p->c[0][at], p->c[1][at]}}; }
+static inline vec place_of(const cluster *p, unsigned at) { return (vec){{p->at[0][at], p->at[1][at]}}; }
 
-/* In the body's own coordinates; of fewer than a run, one of the first that often. */
-static inline vec corner_placed(const cluster *p, unsigned at)
+static inline vec own_of(const cluster *p, unsigned at) { return (vec){{p->own[0][at], p->own[1][at]}}; }
+
+/* As it is given; of fewer than a run, one of the first that often. */
+static inline vec corner_given(const cluster *p, unsigned at)
 {
-    return nth_of(&p->from, at < RUN ? at : at + p->from.count - PLACES);
+    return nth_of(p->from, at < RUN ? at : at + p->from->count - PLACES);
 }
 
 /* The first of those bits; there is one. */
@@ -140,7 +160,7 @@ HOT void raise_placed(const cluster *p, vec v, lanes heights[PLACES / LANES])
 {
     const lanes x = in_all(v.c[0]), y = in_all(v.c[1]);
     for (int i = 0; i < PLACES; i += LANES)
-        heights[i / LANES] = sums(products(join_lanes(p->c[0] + i), x), products(join_lanes(p->c[1] + i), y));
+        heights[i / LANES] = sums(products(join_lanes(p->at[0] + i), x), products(join_lanes(p->at[1] + i), y));
 }
 
 /* The first of the corners that are highest, by rounded heights. */
@@ -158,387 +178,548 @@ HOT unsigned highest_placed(const cluster *p, vec v)
 
 /* ---- the front ---- */
 
-/* A corner of the difference, and which of the bodies' it is made of. */
+/* A corner of the difference, and where those of the bodies stand that it is made of: b's times PLACES, and a's. */
 typedef struct spot {
     vec w;
-    unsigned a, b;
+    unsigned at;
 } spot;
 
-/* What of the difference is nearest to the origin so far: a corner, or an edge. */
+static inline unsigned in_a(const spot *p) { return p->at % PLACES; }
+static inline unsigned in_b(const spot *p) { return p->at / PLACES % PLACES; }
+
+/* What of the difference is nearest to the origin so far: nothing, a corner, or an edge. */
 typedef struct front {
-    spot at[2], last; /* its corners; and that asked for last, */
-    vec way;          /* along this */
+    spot p, q, last; /* its corners, of one both; and that asked for last, */
+    vec way;         /* along this */
     int n;
     vec v;      /* the corner; or square to the edge, away from the origin */
+    vec edge;   /* which this is, from p to q; of a corner 0 */
+    int steps;  /* so often has been asked */
     int around; /* the corner asked for last and the edge hold the origin, */
     int ended;  /* or the walk has come to its end otherwise */
 } front;
 
-typedef struct scene {
-    cluster a, b;
-} scene;
+HOT spot spot_at(const difference *d, const scene *k, unsigned at)
+{
+    spot p = {.at = at};
+    p.w = sub(place_of(&k->a, in_a(&p)), add(place_of(&k->b, in_b(&p)), d->c));
+    return p;
+}
 
 /* The corner of the difference that is least along v. */
-HOT void ask_ahead(difference *d, const scene *k, front *f, vec v)
+HOT void ask_ahead(const difference *d, const scene *k, front *f)
 {
-    spot *p = &f->last;
-    d->calls += 2;
-    f->way = v;
-    p->a = highest_placed(&k->a, mul(v, -1));
-    p->b = highest_placed(&k->b, v);
-    p->w = sub(place_of(&k->a, p->a), place_of(&k->b, p->b));
+    f->way = f->v;
+    f->steps++;
+    f->last = spot_at(d, k, highest_placed(&k->a, mul(f->v, -1)) + PLACES * highest_placed(&k->b, f->v));
 }
 
-/* The ways from a corner to another in either body, and that in the difference. */
-typedef struct leap {
-    vec of_a, of_b, w;
-} leap;
+HOT vec way_in(const cluster *p, unsigned from, unsigned to) { return map(p->m, sub(own_of(p, to), own_of(p, from))); }
 
-static inline leap leap_of(const difference *d, const scene *k, const spot *p, const spot *q)
+/* The corner asked for last lies lower than that, along v, by no more than edges round. */
+static APART int is_level_with(const scene *k, spot last, spot p, vec v)
 {
-    leap e;
-    e.of_a = mapped(&d->a, mul(sub(corner_placed(&k->a, q->a), corner_placed(&k->a, p->a)), d->a.grain));
-    e.of_b = mapped(&d->b, mul(sub(corner_placed(&k->b, q->b), corner_placed(&k->b, p->b)), d->b.grain));
-    e.w = sub(e.of_a, e.of_b);
-    return e;
+    const vec a = way_in(&k->a, in_a(&last), in_a(&p)), b = way_in(&k->b, in_b(&last), in_b(&p));
+    return !(dot(v, sub(a, b)) > LEVEL * (spread(a) + spread(b)) * spread(v));
 }
-
-static inline int same_spot(const spot *p, const spot *q) { return p->a == q->a && p->b == q->b; }
 
 /* The corner asked for last lies no lower along v than the front, but for what edges round. */
-static inline int is_foremost(const difference *d, const scene *k, const front *f)
+HOT int is_foremost(const difference *d, const scene *k, const front *f)
 {
-    const real rise = dot(f->v, sub(f->at[0].w, f->last.w));
-    if (same_spot(&f->last, &f->at[0]) || same_spot(&f->last, &f->at[f->n - 1])) return 1;
-    if (rise > d->doubt * spread(f->v)) return 0;
-    const leap e = leap_of(d, k, &f->last, &f->at[0]);
-    return !(dot(f->v, e.w) > LEVEL * (spread(e.of_a) + spread(e.of_b)) * spread(f->v));
+    if (f->last.at == f->p.at || f->last.at == f->q.at) return 1;
+    if (dot(f->v, sub(f->p.w, f->last.w)) > d->doubt * spread(f->v)) return 0;
+    return is_level_with(k, f->last, f->p, f->v);
 }
 
-static inline void stand_on_corner(front *f, spot p)
+HOT void stand_on_corner(front *f, spot p)
 {
-    f->at[0] = p;
+    f->p = f->q = p;
     f->n = 1;
     f->v = p.w;
+    f->edge = axis(0, 0);
 }
 
-static inline void stand_on_edge(const difference *d, const scene *k, front *f, spot p, spot q)
+HOT void stand_on_edge(const scene *k, front *f, spot p, spot q)
 {
-    const vec e = leap_of(d, k, &p, &q).w;
+    const vec e = sub(way_in(&k->a, in_a(&p), in_a(&q)), way_in(&k->b, in_b(&p), in_b(&q)));
     const vec n = {{-e.c[1], e.c[0]}};
     f->v = dot(n, p.w) < 0 ? mul(n, -1) : n;
-    f->at[0] = p;
-    f->at[1] = q;
+    f->edge = e;
+    f->p = p;
+    f->q = q;
     f->n = 2;
 }
 
-/* The nearest of the corner, the one asked for last, and what is between them. */
-static inline void turn_from_corner(const difference *d, const scene *k, front *f)
+/* What is nearest of the corner, the one asked for last, and what is between them: how many corners are left, and
+ * these. */
+HOT int turn_from_corner(const front *f, spot *p, spot *q)
 {
-    const spot p = f->at[0], q = f->last;
-    const vec e = sub(q.w, p.w);
-    if (!(dot(p.w, e) < 0)) stand_on_corner(f, p);
-    else if (!(dot(q.w, e) > 0)) stand_on_corner(f, q);
-    else stand_on_edge(d, k, f, p, q);
-}
-
-/* The nearest of what the corner asked for last makes with the edge, which it lies below. 0: the triangle holds the
- * origin. */
-static inline int turn_from_edge(const difference *d, const scene *k, front *f)
-{
-    const spot p = f->last;
-    const vec left = sub(f->at[0].w, p.w), right = sub(f->at[1].w, p.w);
-    const real turn = cross(left, right) < 0 ? -1 : 1;
-    const int beyond_left = cross(p.w, left) * turn<0, beyond_right = cross(p.w, right) * turn> 0;
-    if (!beyond_left && !beyond_right) return 0;
-    if (beyond_left && dot(p.w, left) < 0) stand_on_edge(d, k, f, f->at[0], p);
-    else if (beyond_right && dot(p.w, right) < 0) stand_on_edge(d, k, f, f->at[1], p);
-    else stand_on_corner(f, p);
+    const vec e = sub(f->last.w, f->p.w);
+    *p = f->p;
+    *q = f->last;
+    if (dot(f->p.w, e) < 0 && dot(f->last.w, e) > 0) return 2;
+    if (dot(f->p.w, e) < 0) *p = f->last;
     return 1;
 }
 
-static inline int turn_front(const difference *d, const scene *k, front *f)
+/* The same of what the corner asked for last makes with the edge, which it lies below. 3: the triangle holds the
+ * origin. */
+HOT int turn_from_edge(const front *f, spot *p, spot *q)
 {
-    if (f->n == 2) return turn_from_edge(d, k, f);
-    turn_from_corner(d, k, f);
+    const vec w = f->last.w, left = sub(f->p.w, w), right = sub(f->q.w, w);
+    const real turn = cross(left, right) < 0 ? -1 : 1;
+    const int beyond_left = cross(w, left) * turn<0, beyond_right = cross(w, right) * turn> 0;
+    if (!beyond_left && !beyond_right) return 3;
+    *q = f->last;
+    *p = f->p;
+    if (beyond_left && dot(w, left) < 0) return 2;
+    *p = f->q;
+    if (beyond_right && dot(w, right) < 0) return 2;
+    *p = f->last;
+    return 1;
+}
+
+/* Takes in the corner asked for last. 0: the edge and that corner hold the origin. */
+HOT int turn_front(const scene *k, front *f)
+{
+    spot p = f->last, q = p;
+    const int n = f->n == 0 ? 1 : f->n == 1 ? turn_from_corner(f, &p, &q) : turn_from_edge(f, &p, &q);
+    if (n == 2) stand_on_edge(k, f, p, q);
+    else if (n == 1) stand_on_corner(f, p);
+    return n < 3;
+}
+
+/* ---- what a cache holds ---- */
+
+/* Where the front's corners stand in their lists and, where it holds the origin with these, the one asked for last. */
+static inline uint32_t hint_of(const front *f)
+{
+    uint32_t r = f->p.at;
+    if (f->n > 1) r |= f->q.at << 8;
+    if (f->around) r |= f->last.at << 8 * f->n;
+    return r;
+}
+
+/* For a walk from there: these corners, and where they stand, if there is a query after this. */
+static void keep_front(cache *own, const search *q, const scene *k, const front *f, const shape *a, const shape *b)
+{
+    uint32_t hint = own->reserved = hint_of(f);
+    own->count = (uint32_t)(f->n + f->around);
+    for (uint32_t i = 0; i < own->count; i++, hint >>= 8) {
+        const spot p = {.at = hint};
+        store(own->a[i], corner_given(&k->a, in_a(&p)));
+        store(own->b[i], corner_given(&k->b, in_b(&p)));
+    }
+    keep_whose(own, q, a, b);
+}
+
+static APART void hand_on_front(cache *own, const search *q, const scene *k, front f, const shape *a, const shape *b)
+{
+    keep_front(own, q, k, &f, a, b);
+}
+
+/* It holds them already, as has been seen. */
+static inline int is_kept(const cache *own, const front *f)
+{
+    return own->count == (uint32_t)(f->n + f->around) && own->reserved == hint_of(f);
+}
+
+HOT int stands_at(const body *k, int framed, const cluster *p, unsigned at, const real *x)
+{
+    return same(own_of(p, at), framed ? mul(load(x), k->grain) : load(x));
+}
+
+/* From the points of the last query, if they stand where they did. 0: they do not. */
+HOT int recall(const difference *d, const scene *k, int framed, front *f, const cache *from)
+{
+    uint32_t hint = from->reserved;
+    for (uint32_t i = 0; i < from->count; i++, hint >>= 8) {
+        const spot p = f->last = spot_at(d, k, hint % (PLACES * PLACES));
+        if (!stands_at(&d->a, framed, &k->a, in_a(&p), from->a[i])) return 0;
+        if (!stands_at(&d->b, framed, &k->b, in_b(&p), from->b[i])) return 0;
+        if (f->n < 2 || dot(f->v, p.w) < dot(f->v, f->p.w)) turn_front(k, f);
+    }
+    return 1;
+}
+
+/* ---- spelling ---- */
+
+/* What is known of the cores: how far apart at least, along v, of length l, and at most, as these points of theirs are,
+ * from the bodies' positions; and in all, the radii taken off. */
+typedef struct verdict {
+    real lower, upper, value, l;
+    vec v, a, b, way;
+} verdict;
+
+/* Of any bodies. 0: that does not say whether they meet or, where it is asked, how deep; and nothing is changed. */
+static APART int spell_in_full(search *q, verdict own, int steps, int deep, const shape *a, const shape *b, result *r)
+{
+    const verdict *t = &own;
+    result told = {.value = t->value, .steps = steps, .supports = 2 * steps};
+    bracket(&told, &q->d, t->lower, t->upper, a, b);
+    if (!(told.lower > 0) && !(told.upper < 0)) return 0;
+    EACH(q->normal.c[i] = 0 - t->v.c[i] / t->l);
+    move_points(&told, q, t->a, t->b, t->way, a, b, deep);
+    store(told.normal, q->normal);
+    *r = told;
+    return 1;
+}
+
+/* Sharp bodies, in the caller's own lengths; apart, or with one point of both. */
+HOT void spell_at_once(const verdict *t, const shape *a, const shape *b, result *r)
+{
+    r->lower = t->lower;
+    r->upper = t->upper;
+    r->value = t->value;
+    const vec on_a = a->pose ? add(t->a, load(a->pose->p)) : t->a;
+    store(r->point_a, on_a);
+    store(r->point_b, !(t->upper > 0) ? on_a : b->pose ? add(t->b, load(b->pose->p)) : t->b);
+    EACH(r->normal[i] = 0 - t->v.c[i] / t->l);
+}
+
+HOT int spell_verdict(search *q, const verdict *t, const front *f, int framed, const shape *a, const shape *b,
+                      const goal *g, result *r)
+{
+    if (framed || g->radius != 0) return spell_in_full(q, *t, f->steps, g->deep, a, b, r);
+    spell_at_once(t, a, b, r);
+    r->steps = f->steps;
+    r->supports = 2 * f->steps;
+    r->reserved = 0;
     return 1;
 }
 
 /* ---- telling ---- */
 
-static inline vertex vertex_of(const scene *k, const spot *p)
-{
-    return (vertex){.w = p->w, .x = corner_placed(&k->a, p->a), .y = corner_placed(&k->b, p->b)};
-}
-
-/* For a walk from there: the front's corners and, where it holds the origin with these, the one asked for last; and
- * where they stand in their lists, if there is a query after this. */
-static inline void keep_front(cache *own, const search *q, const scene *k, const front *f, const shape *a,
-                              const shape *b)
-{
-    const spot *at[3] = {&f->at[0], f->n > 1 ? &f->at[1] : &f->last, &f->last};
-    own->count = (uint32_t)(f->n + f->around);
-    own->reserved = 0;
-    for (uint32_t i = 0; i < own->count; i++) {
-        store(own->a[i], corner_placed(&k->a, at[i]->a));
-        store(own->b[i], corner_placed(&k->b, at[i]->b));
-        own->reserved |= (at[i]->b * PLACES + at[i]->a) << 8 * i;
-    }
-    keep_whose(own, q, a, b);
-}
-
 /* How far along the edge the origin is. */
-static inline real share_of_edge(const front *f)
+HOT real share_of_edge(const front *f)
 {
-    if (f->n == 1) return 0;
-    const vec e = sub(f->at[1].w, f->at[0].w);
-    return within_way(-dot(f->at[0].w, e) / dot(e, e));
+    return f->n == 1 ? 0 : within_way(-dot(f->p.w, f->edge) / dot(f->edge, f->edge));
 }
 
-/* The point at that share of the way from x to y, times that grain, and what of it rounds away. */
-static inline vec point_between(vec x, vec y, real share, real grain, vec *low)
+/* The body's point at that share of the way, and what of it rounds away. */
+HOT vec point_between(const cluster *p, unsigned from, unsigned to, real share, vec *low)
 {
-    const vec way = mul(mul(sub(y, x), grain), share);
+    const vec x = own_of(p, from), way = mul(sub(own_of(p, to), x), share);
     vec r;
     for (int i = 0; i < DIM; i++) {
-        const twin t = sum_of(x.c[i] * grain, way.c[i]);
+        const twin t = sum_of(x.c[i], way.c[i]);
         r.c[i] = t.high;
         low->c[i] = t.low;
     }
     return r;
 }
 
-static inline closest pair_at_front(const difference *d, const scene *k, const front *f)
+HOT closest pair_at_front(const difference *d, const scene *k, const front *f, real share)
 {
-    const spot *p = &f->at[0], *q = &f->at[f->n - 1];
-    const real share = share_of_edge(f);
-    closest r;
-    r.x = point_between(corner_placed(&k->a, p->a), corner_placed(&k->a, q->a), share, d->a.grain, &r.x_low);
-    r.y = point_between(corner_placed(&k->b, p->b), corner_placed(&k->b, q->b), share, d->b.grain, &r.y_low);
-    r.w = corner_at(d, r.x, r.y);
-    return r;
+    closest p;
+    p.x = point_between(&k->a, in_a(&f->p), in_a(&f->q), share, &p.x_low);
+    p.y = point_between(&k->b, in_b(&f->p), in_b(&f->q), share, &p.y_low);
+    p.w = sub(map(k->a.m, p.x), add(map(k->b.m, p.y), d->c));
+    return p;
+}
+
+static inline closest pair_at_spot(const scene *k, const spot *p)
+{
+    const vec none = axis(0, 0);
+    return (closest){own_of(&k->a, in_a(p)), none, own_of(&k->b, in_b(p)), none, p->w};
+}
+
+/* Of four numbers the upper digits, by bounds of them times DIGITS_OFF. */
+HOT fours upper_of(fours x, fours off) { return differences_of(sums_of(x, off), off); }
+
+/* Where the pair's points are, of a and then of b, and what rounding took from that: products of upper digits are
+ * whole, and so is their sum. */
+HOT void place_finely(const difference *d, const scene *k, const closest *p, real place[2 * DIM], real low[2 * DIM])
+{
+    const real *m = k->a.m, *n = k->b.m;
+    const vec x = p->x, y = p->y, s = p->x_low, t = p->y_low;
+    const real of_m = d->a.norm * DIGITS_OFF, of_n = d->b.norm * DIGITS_OFF;
+    const real of_x = d->a.limit * d->a.grain * DIGITS_OFF, of_y = d->b.limit * d->b.grain * DIGITS_OFF;
+    const fours map_off = fours_of(of_m, of_m, of_n, of_n), off = fours_of(of_x, of_x, of_y, of_y);
+    const fours first = fours_of(m[0], m[2], n[0], n[2]), second = fours_of(m[1], m[3], n[1], n[3]);
+    const fours x0 = fours_of(x.c[0], x.c[0], y.c[0], y.c[0]), x1 = fours_of(x.c[1], x.c[1], y.c[1], y.c[1]);
+    const fours first_up = upper_of(first, map_off), second_up = upper_of(second, map_off);
+    const fours x0_up = upper_of(x0, off), x1_up = upper_of(x1, off);
+    const fours x0_rest = sums_of(differences_of(x0, x0_up), fours_of(s.c[0], s.c[0], t.c[0], t.c[0]));
+    const fours x1_rest = sums_of(differences_of(x1, x1_up), fours_of(s.c[1], s.c[1], t.c[1], t.c[1]));
+    const fours up = sums_of(products_of(first_up, x0_up), products_of(second_up, x1_up));
+    const fours rest = sums_of(products_of(first_up, x0_rest), products_of(second_up, x1_rest));
+    const fours lower =
+        sums_of(products_of(differences_of(first, first_up), x0), products_of(differences_of(second, second_up), x1));
+    const fours at = sums_of(products_of(first, x0), products_of(second, x1));
+    part_fours(at, place);
+    part_fours(sums_of(differences_of(up, at), sums_of(rest, lower)), low);
+}
+
+/* What it took from the corner of the difference that they make, and from c on the way there. */
+HOT vec lost_finely(const difference *d, const scene *k, const closest *p, const shape *a, const shape *b)
+{
+    const vec c_low = mul(offset_low(a->pose, b->pose), d->scale);
+    real place[2 * DIM], lost[2 * DIM];
+    vec low;
+    place_finely(d, k, p, place, lost);
+    for (int i = 0; i < DIM; i++) {
+        const twin t = sum_of(place[DIM + i], d->c.c[i]);
+        low.c[i] = (sum_of(place[i], -t.high).low - t.low) + (lost[i] - lost[DIM + i] - c_low.c[i]);
+    }
+    return low;
+}
+
+/* The pair is what is told. */
+HOT void place_verdict(const scene *k, const closest *p, verdict *t)
+{
+    t->a = map(k->a.m, p->x);
+    t->b = map(k->b.m, p->y);
+    t->way = p->w;
+}
+
+/* How long w + low is, to more digits than one number has, as upper digits have exact squares: length_to_twice,
+ * cheaper, and not as exact. */
+HOT twin length_by_digits(vec w, vec low)
+{
+    const real off = spread(w) * DIGITS_OFF, l = length(w), l_up = (l + off) - off, l_rest = l - l_up;
+    vec up;
+    EACH(up.c[i] = (w.c[i] + off) - off);
+    const vec rest = sub(w, up);
+    const real square = dot(up, up) - l_up * l_up;
+    const real more = 2 * (dot(up, rest) - l_up * l_rest + dot(w, low)) + (dot(rest, rest) - l_rest * l_rest);
+    return (twin){l, (square + more) / (2 * l)};
 }
 
 /* By how much a corner of the body may rise above that one along the direction of length l, and by how much one seems
  * to, in roundings of the edge there. Those that are lower by the margin for certain are passed over. */
 static real rise_of_body(const body *k, const cluster *p, unsigned at, vec v, real l, real margin, real *seems)
 {
-    const vec x = corner_placed(p, at);
     const real least = dot(place_of(p, at), v) - margin;
     lanes heights[PLACES / LANES];
     unsigned near = 0;
     real most = 0;
     raise_placed(p, v, heights);
     for (int i = 0; i < PLACES; i += LANES) near |= (unsigned)any_as_large(heights[i / LANES], in_all(least)) << i;
-    if (p->from.count < RUN) near &= (1u << p->from.count) - 1; /* none again */
+    if (p->from->count < RUN) near &= (1u << p->from->count) - 1; /* none again */
     for (near &= ~(1u << at); near != 0; near &= near - 1) {
-        const vec way = mul(sub(corner_placed(p, first_bit(near)), x), k->grain);
-        const real edge = k->posed ? length(map_size(k->m, way)) : length(way), rise = dot(mapped(k, way), v) / l;
+        const vec way = sub(own_of(p, first_bit(near)), own_of(p, at));
+        const real edge = k->posed ? length(map_size(p->m, way)) : length(way), rise = dot(map(p->m, way), v) / l;
         most = larger(rise + lost_of_rise(edge, rise), most);
         *seems = larger(rise - LIES * edge, *seems);
     }
     return most;
 }
 
+/* What the way between two of the body's corners sums, without the signs. */
+static inline real sums_between(const cluster *p, unsigned from, unsigned to)
+{
+    return spread(map_size(p->m, sub(own_of(p, to), own_of(p, from))));
+}
+
 /* So near that rounding hides it: the front's first corner to twice the digits, and how much lower another may lie by
  * the edges between them (docs/bounds.md). 0: that leaves it open, too. */
-static APART int tell_finely(search *q, const scene *k, front *f, const shape *a, const shape *b, const goal *g,
-                             result *r)
+static APART int tell_finely(search *q, const scene *k, front own, const shape *a, const shape *b, int deep, result *r)
 {
     const difference *d = &q->d;
-    const vertex p = vertex_of(k, &f->at[0]);
-    const closest first = {.x = mul(p.x, d->a.grain), .y = mul(p.y, d->b.grain), .w = p.w};
-    know_offset(&q->d, a, b);
-    const vec low = lost_of_pair(d, &first);
-    if (f->n == 1) f->v = add(p.w, low);
-    const real l = length(f->v), whole = d->doubt / PLANAR_DOUBT;
-    const real blur = whole * (UNIT / 8) + (d->wild ? d->lost : 0), margin = d->doubt * l;
+    front *f = &own;
+    const spot *p = &f->p, *last = &f->q;
+    const closest first = pair_at_spot(k, p);
+    const vec low = lost_finely(d, k, &first, a, b);
+    verdict t;
+    if (f->n == 1) f->v = add(p->w, low);
+    t.v = f->v;
+    t.l = length(f->v);
+    const real whole = d->doubt / PLANAR_DOUBT, blur = whole * (UNIT / 8) + (d->wild ? d->lost : 0);
+    const real margin = d->doubt * t.l;
     real seems = 0;
-    const real fall = rise_of_body(&d->a, &k->a, f->at[0].a, mul(f->v, -1), l, margin, &seems) +
-                      rise_of_body(&d->b, &k->b, f->at[0].b, f->v, l, margin, &seems);
-    const twin height = height_to_twice(f->v, p.w, low);
-    if (seems > 0 || !(l > 0)) return 0;
-    const closest pair = pair_at_front(d, k, f);
-    const vec way = add(pair.w, lost_of_pair(d, &pair));
-    const leap edge = leap_of(d, k, &f->at[0], &f->at[f->n - 1]);
-    const real off = 8 * UNIT * (spread(edge.of_a) + spread(edge.of_b)), far = length(way);
-    q->lower = height.high + (height.low - fall - blur - 2 * UNIT * size(height.high));
-    EACH(q->normal.c[i] = 0 - f->v.c[i] / l);
-    r->value = gap_of(d, height, a, b);
-    const real upper = far + (off + blur + 8 * UNIT * far);
-    const real radius = g->radius * d->scale, width = upper - q->lower;
+    const real fall = rise_of_body(&d->a, &k->a, in_a(p), mul(f->v, -1), t.l, margin, &seems) +
+                      rise_of_body(&d->b, &k->b, in_b(p), f->v, t.l, margin, &seems);
+    const twin height = height_to_twice(f->v, p->w, low);
+    if (seems > 0 || !(t.l > 0)) return 0;
+    const closest pair = pair_at_front(d, k, f, share_of_edge(f));
+    place_verdict(k, &pair, &t);
+    t.way = add(pair.w, lost_finely(d, k, &pair, a, b));
+    const real off = 8 * UNIT * (sums_between(&k->a, in_a(p), in_a(last)) + sums_between(&k->b, in_b(p), in_b(last)));
+    const real far = length(t.way);
+    t.lower = height.high + (height.low - fall - blur - 2 * UNIT * size(height.high));
+    t.upper = far + (off + blur + 8 * UNIT * far);
+    t.value = gap_of(d, height, a, b);
+    const real radius = (a->radius + b->radius) * d->scale, width = t.upper - t.lower;
     if (!(width <= MOST_WIDE * d->doubt)) return 0;
-    if (g->deep && !(q->lower > radius) && !(width <= BROAD * (whole / 2 + radius))) return 0;
-    spell(q, a, b, upper, &pair, r);
-    if (g->deep && r->upper < 0) move_points(r, q, mapped(&d->a, pair.x), mapped(&d->b, pair.y), pair.w, a, b, 1);
-    return r->lower > 0 || r->upper < 0;
+    if (deep && !(t.lower > radius) && !(width <= BROAD * (whole / 2 + radius))) return 0;
+    return spell_in_full(q, t, f->steps, deep, a, b, r);
 }
 
 /* How far apart: as the pair is, than which no corner lies lower; or whether, where that is asked. 0: rounding leaves
  * it open, or has chosen an edge that is too short for it. */
-static int tell_front(search *q, const scene *k, front *f, const shape *a, const shape *b, const goal *g, result *r)
+HOT int tell_front(search *q, const scene *k, front *f, int framed, const shape *a, const shape *b, const goal *g,
+                   result *r)
 {
     const difference *d = &q->d;
-    raise(q, f->way, f->last.w);
-    if (!(q->lower > EVIDENT * d->doubt) && g->radius == 0) return tell_finely(q, k, f, a, b, g, r);
-    const closest pair = pair_at_front(d, k, f);
-    const real upper = length(pair.w) * (1 + 8 * UNIT) + d->doubt;
+    verdict t = {.v = f->way, .l = length(f->way), .value = 0};
+    t.lower = dot(f->way, f->last.w) / t.l - d->doubt;
+    if (!(t.lower > EVIDENT * d->doubt) && g->radius == 0) return tell_finely(q, k, *f, a, b, g->deep, r);
+    if (g->deep && !(t.lower > g->radius * d->scale)) return tell_finely(q, k, *f, a, b, 1, r);
+    const closest pair = pair_at_front(d, k, f, share_of_edge(f));
+    place_verdict(k, &pair, &t);
     if (g->sign_only) {
-        spell(q, a, b, upper, &pair, r);
+        t.upper = length(t.way) * (1 + 8 * UNIT) + d->doubt;
     } else {
-        if (!(upper - q->lower <= MOST_WIDE * d->doubt) && f->ended) return 0;
-        know_offset(&q->d, a, b);
-        spell_distance(q, a, b, upper, &pair, lost_of_pair(d, &pair), r);
+        const twin far = length_by_digits(t.way, lost_finely(d, k, &pair, a, b));
+        t.upper = far.high * (1 + 8 * UNIT) + d->doubt;
+        t.value = g->radius == 0 ? (far.high + far.low) * d->unscale : gap_of(d, far, a, b);
+        if (!(t.upper - t.lower <= MOST_WIDE * d->doubt) && f->ended) return 0;
     }
-    return r->lower > 0 || (r->upper < 0 && !g->deep) || tell_finely(q, k, f, a, b, g, r);
+    if (spell_verdict(q, &t, f, framed, a, b, g, r)) return 1;
+    return tell_finely(q, k, *f, a, b, g->deep, r);
 }
 
 /* They overlap: the corner asked for last and the edge hold the origin. 0: with too little room, or more is asked. */
-static int tell_held(search *q, const scene *k, const front *f, const shape *a, const shape *b, const goal *g,
-                     result *r)
+HOT int tell_held(search *q, const scene *k, const front *f, int framed, const shape *a, const shape *b, const goal *g,
+                  result *r)
 {
-    clear(&q->s);
-    q->s.n = 3;
-    for (int i = 0; i < 2; i++) q->s.slot[i] = vertex_of(k, &f->at[i]);
-    q->s.slot[2] = vertex_of(k, &f->last);
-    raise(q, f->way, f->last.w);
-    if (g->deep || !holds(&q->s, q->weight)) return 0;
-    q->inside = rough_room(&q->s, q->weight);
-    if (!(q->inside > (1 + EVIDENT) * q->d.doubt)) return 0;
-    q->weighed = 1;
-    tell_overlap(q, a, b, INSIDE, q->d.doubt / 3, r);
-    r->value = 0;
-    return r->upper < 0;
+    const difference *d = &q->d;
+    const spot *at[3] = {&f->p, &f->q, &f->last};
+    simplex s;
+    real weight[DIM + 1];
+    if (g->deep) return 0;
+    clear(&s);
+    s.n = 3;
+    for (int i = 0; i < 3; i++) s.slot[i].w = at[i]->w;
+    if (!holds(&s, weight)) return 0;
+    const real inside = rough_room(&s, weight);
+    if (!(inside > (1 + EVIDENT) * d->doubt)) return 0;
+    verdict t = {.v = f->way, .l = length(f->way), .upper = d->doubt - inside, .value = 0};
+    t.lower = dot(f->way, f->last.w) / t.l - d->doubt;
+    const real sum = weight[0] + weight[1] + weight[2];
+    t.a = t.b = axis(0, 0);
+    for (int i = 0; i < 3; i++) {
+        t.a = add(t.a, mul(place_of(&k->a, in_a(at[i])), weight[i] / sum));
+        t.b = add(t.b, mul(place_of(&k->b, in_b(at[i])), weight[i] / sum));
+    }
+    t.way = sub(t.a, add(t.b, d->c));
+    if (!(peak(t.way) <= d->doubt / 3)) return 0; /* the pair is none */
+    return spell_verdict(q, &t, f, framed, a, b, g, r);
 }
 
-/* What the corner asked for last shows, where it is only asked whether they meet: that they are apart. */
-static inline int shows_apart(search *q, const scene *k, const front *f, const shape *a, const shape *b, const goal *g,
-                              result *r)
+/* What the corner asked for last shows, where it is only asked whether they meet: that they are apart. The line of
+ * centres, along which that was first, may be too short to be a direction. */
+HOT int is_apart(const difference *d, const front *f, const goal *g)
 {
-    const real least = q->d.doubt + g->radius * q->d.scale, height = dot(f->way, f->last.w);
-    if (!(height > 0 && height > least * length(f->way))) return 0;
-    const vertex p = vertex_of(k, &f->last);
-    evidence e = corner_shown(&q->d, f->way, &p);
-    q->steps--; /* it counts itself */
-    if (tell_evidence(q, &e, f->way, &p, a, b, r)) return 1;
-    q->steps++;
-    return 0;
+    const real least = d->doubt + g->radius * d->scale, height = dot(f->way, f->last.w);
+    if (!(height > 0)) return 0;
+    const real l = length(f->way);
+    return height > least * l && l > d->doubt * (UNIT / PLANAR_DOUBT);
+}
+
+HOT int tell_apart_at(search *q, const scene *k, const front *f, int framed, const shape *a, const shape *b,
+                      const goal *g, result *r)
+{
+    const spot *p = &f->last;
+    verdict t = {.v = f->way, .l = length(f->way), .way = p->w, .value = 0};
+    t.lower = dot(f->way, p->w) / t.l - q->d.doubt;
+    t.upper = length(p->w) * (1 + 8 * UNIT) + q->d.doubt;
+    t.a = place_of(&k->a, in_a(p));
+    t.b = place_of(&k->b, in_b(p));
+    return t.lower > 0 && spell_verdict(q, &t, f, framed, a, b, g, r);
 }
 
 /* That they are farther apart than is asked, if that is asked. */
-static inline int shows_beyond(const difference *d, const front *f, const goal *g)
+HOT int shows_beyond(const difference *d, const front *f, const goal *g)
 {
     if (g->sign_only || g->beyond == REAL_MAX) return 0;
     return dot(f->way, f->last.w) > (g->beyond * d->scale + EVIDENT * d->doubt) * length(f->way);
 }
 
 /* The front is so near that the radii meet. */
-static inline int is_within(const difference *d, const front *f, const goal *g)
+HOT int is_within(const difference *d, const front *f, const goal *g)
 {
     if (!g->sign_only) return 0;
-    const real within = g->radius * d->scale - EVIDENT * d->doubt, height = dot(f->v, f->at[0].w);
+    const real within = g->radius * d->scale - EVIDENT * d->doubt, height = dot(f->v, f->p.w);
     return within > 0 && height < within * length(f->v);
 }
 
 /* ---- the walk ---- */
 
-static inline int stands_at(const cluster *p, unsigned at, vec x)
-{
-    return (at < p->from.count || p->from.count >= RUN) && same(corner_placed(p, at), x);
-}
+/* Where the walk ends: nowhere; where the corner asked for last shows that they are apart; at a front that is nearest,
+ * or near enough; or it is held. */
+enum halt { LOST, SHOWN, FOREMOST, AROUND };
 
-/* From the points of the last query, if they stand where they did. 0: they do not. */
-static inline int recall(const difference *d, const scene *k, front *f, const cache *from)
+HOT enum halt walk_front(const difference *d, const scene *k, front *f, const goal *g)
 {
-    uint32_t hint = from->reserved;
-    for (uint32_t i = 0; i < from->count; i++, hint >>= 8) {
-        spot p = {.a = hint % PLACES, .b = hint / PLACES % PLACES};
-        if (!stands_at(&k->a, p.a, load(from->a[i])) || !stands_at(&k->b, p.b, load(from->b[i]))) return 0;
-        p.w = sub(place_of(&k->a, p.a), place_of(&k->b, p.b));
-        f->last = p;
-        if (i == 0) stand_on_corner(f, p);
-        else if (f->n == 1) turn_from_corner(d, k, f);
-        else if (dot(f->v, p.w) < dot(f->v, f->at[0].w)) turn_from_edge(d, k, f);
-    }
-    return 1;
-}
-
-/* Walks to the front that is nearest, or until the origin is held, and tells what that shows. 0: nothing. */
-static inline int walk_front(search *q, const scene *k, front *f, const shape *a, const shape *b, const goal *g,
-                             result *r)
-{
-    difference *d = &q->d;
     const real least = d->doubt * (UNIT / PLANAR_DOUBT);
     for (;;) {
-        f->ended = !(dot(f->v, f->v) > least * least); /* it has no direction */
-        if (f->ended || q->steps >= ASKED_MOST || q->steps >= g->max_steps) return 0;
-        ask_ahead(d, k, f, f->v);
-        q->steps++;
-        if (g->sign_only && shows_apart(q, k, f, a, b, g, r)) return 1;
-        f->ended = is_foremost(d, k, f);
-        if (f->ended || shows_beyond(d, f, g) || is_within(d, f, g)) return tell_front(q, k, f, a, b, g, r);
-        f->around = !turn_front(d, k, f);
-        if (f->around) return tell_held(q, k, f, a, b, g, r);
+        f->ended = f->n > 0 && !(dot(f->v, f->v) > least * least); /* it has no direction */
+        if (f->ended || f->steps >= ASKED_MOST || f->steps >= g->max_steps) return LOST;
+        ask_ahead(d, k, f);
+        if (g->sign_only && is_apart(d, f, g)) return SHOWN;
+        if (f->n > 0) {
+            f->ended = is_foremost(d, k, f);
+            if (f->ended || shows_beyond(d, f, g) || is_within(d, f, g)) return FOREMOST;
+        }
+        f->around = !turn_front(k, f);
+        if (f->around) return AROUND;
     }
 }
 
 /* Where this walk was left, if that is where another may go on. */
-static void leave_front(search *q, const scene *k, const front *f, const shape *a, const shape *b)
+static APART void leave_front(search *q, const scene *k, front f, const shape *a, const shape *b)
 {
-    if (!f->around && !f->ended) return;
-    keep_front(&q->found.at, q, k, f, a, b);
-    q->found.steps = q->steps;
-    q->found.calls = q->d.calls;
+    q->found.at.count = 0;
+    if (!f.around && !f.ended) return;
+    blank(q);
+    q->lower = -REAL_MAX;
+    q->d.slack = 0;
+    if (f.steps > 0) raise(q, f.way, f.last.w);
+    keep_front(&q->found.at, q, k, &f, a, b);
+    q->found.steps = f.steps;
+    q->found.calls = 2 * f.steps;
     q->found.lower = q->lower * q->d.unscale;
     q->found.normal = q->normal;
 }
 
-/* 0: nothing is told, and the glance's corner is where it was. */
-static int look_at_planar(search *q, cache *own, const shape *a, const shape *b, const goal *g, result *r)
+/* 0: nothing is told. */
+HOT int look_at_planar(search *q, cache *own, int framed, const shape *a, const shape *b, const goal *g, result *r)
 {
-    const vertex glanced = q->s.slot[0];
-    const int calls = q->d.calls;
+    const difference *d = &q->d;
     scene k;
     front f;
-    f.around = f.ended = 0;
-    blank(q);
-    q->lower = -REAL_MAX;
-    q->d.loose = 0;
-    if (!place_corners(&q->d.a, axis(0, 0), &k.a) || !place_corners(&q->d.b, q->d.c, &k.b)) return 0;
+    q->found.at.count = 0;
+    list_places(&d->a, &k.a);
+    list_places(&d->b, &k.b);
+    if (!place_corners(&d->a, framed, &k.a) || !place_corners(&d->b, framed, &k.b)) return 0;
     const int lent = own && lends(own, a, b);
-    if (!lent || !recall(&q->d, &k, &f, own)) {
-        if (lent && g->deep) return 0; /* to the walk, which knows what was lent */
-        ask_ahead(&q->d, &k, &f, mul(q->d.c, -1));
-        stand_on_corner(&f, f.last);
-        q->steps++;
+    f.n = f.steps = f.around = f.ended = 0;
+    if (lent && !recall(d, &k, framed, &f, own)) {
+        if (g->deep) return 0; /* to the walk, which knows what was lent */
+        f.n = 0;
     }
-    q->d.calls = 2 * q->steps;
-    if (walk_front(q, &k, &f, a, b, g, r)) {
-        if (own) keep_front(own, q, &k, &f, a, b);
-        return 1;
-    }
-    leave_front(q, &k, &f, a, b);
-    q->s.slot[0] = glanced;
-    q->d.calls = calls;
-    return 0;
+    const int recalled = f.n;
+    if (!recalled) f.v = mul(d->c, -1);
+    const enum halt at = walk_front(d, &k, &f, g);
+    const int told = at == SHOWN      ? tell_apart_at(q, &k, &f, framed, a, b, g, r)
+                     : at == FOREMOST ? tell_front(q, &k, &f, framed, a, b, g, r)
+                     : at == AROUND   ? tell_held(q, &k, &f, framed, a, b, g, r)
+                                      : 0;
+    if (!told) leave_front(q, &k, f, a, b);
+    else if (own && !(recalled && is_kept(own, &f))) hand_on_front(own, q, &k, f, a, b);
+    return told;
+}
+
+/* The same, for the few that ask anything else. */
+static APART int look_in_full(search *q, cache *own, int framed, const shape *a, const shape *b, const goal *g,
+                              result *r)
+{
+    return look_at_planar(q, own, framed, a, b, g, r);
 }
 
 /* ---- the doubt ---- */
 
-/* Without a frame. UNCLEAR: the sizes are none for that. */
-static enum glanced tell_planar(search *q, cache *own, const shape *a, const shape *b, const goal *g, result *r)
+/* Without a frame. 0: the sizes are none for that. */
+HOT int settle_outside(difference *d, const shape *a, const shape *b)
 {
-    difference *d = &q->d;
-    if (q->glanced == UNCLEAR) return UNCLEAR;
-    stay_outside(d, a, b);
-    d->slack = 0;
-    know_reach_listed(&d->a);
-    know_reach_listed(&d->b);
     real map[2];
-    if (!doubt_outside(d, a, b, square_of_reach(&d->a, 1), square_of_reach(&d->b, 1), PLANAR_DOUBT, map))
-        return UNCLEAR;
-    know_norms(d, root(map[0]), root(map[1]));
-    return look_at_planar(q, own, a, b, g, r) ? TELLING : IN_VAIN;
+    stay_outside(d, a, b);
+    if (!doubt_outside(d, a, b, square_of_reach(&d->a, 1), square_of_reach(&d->b, 1), PLANAR_DOUBT, map)) return 0;
+    d->a.norm = root(map[0]);
+    d->b.norm = root(map[1]);
+    return 1;
 }
 
 /* In the frame. */
@@ -551,8 +732,9 @@ static APART int tell_planar_in_frame(search *q, cache *own, const shape *a, con
     const real map_b = square_of_map(&d->b, squared_axes(&d->b, level_b));
     d->doubt = PLANAR_DOUBT * root(square_in_frame(&d->a) + square_in_frame(&d->b) + dot(d->c, d->c)) +
                (d->wild ? d->lost : 0);
-    know_norms(d, root(map_a) / level_a, root(map_b) / level_b);
-    if (look_at_planar(q, own, a, b, g, r)) return 1;
+    d->a.norm = root(map_a) / level_a;
+    d->b.norm = root(map_b) / level_b;
+    if (look_in_full(q, own, 1, a, b, g, r)) return 1;
     const find found = q->found;
     *q = before;
     q->found = found;
@@ -562,13 +744,89 @@ static APART int tell_planar_in_frame(search *q, cache *own, const shape *a, con
 /* ---- the door ---- */
 
 /* Without a frame, if they are polygons and that will do. */
+static APART enum glanced tell_planar(search *q, const shape *a, const shape *b, const options *o, const goal *g,
+                                      result *r)
+{
+    know_reach_listed(&q->d.a);
+    know_reach_listed(&q->d.b);
+    if (!settle_outside(&q->d, a, b)) return UNCLEAR;
+    return look_in_full(q, o->cache, 0, a, b, g, r) ? TELLING : IN_VAIN;
+}
+
 static inline void tell_polygons(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
-    q->planar = UNTRIED;
-    q->found.at.count = 0;
+    if (q->planar == UNTRIED) q->found.at.count = 0;
     if (q->told || !q->listed || q->thin != UNTRIED || !are_planar(&q->d)) return;
-    q->planar = tell_planar(q, o->cache, a, b, g, r);
+    if (q->planar == UNTRIED) q->planar = tell_planar(q, a, b, o, g, r);
     q->told = q->planar == TELLING;
+}
+
+/* Nothing is asked but what everyone asks. */
+static inline int asks_nothing_else(const options *o)
+{
+    return !o || (o->size == sizeof *o && !o->tight &&
+                  size(o->abs_tol) + size(o->rel_tol) + size(o->cutoff) + size(o->slack) == 0);
+}
+
+/* A polygon of few corners, and all that is known of it. 0: it is none. */
+HOT int list_polygon(body *k, const shape *s)
+{
+    const points *p = s->data;
+    if (s->support != pub(support_points) || !p || !p->v) return 0;
+    const size_t step = stride_of(p);
+    if (p->count - 3 > PLACES - 3 || step < DIM || p->stride % sizeof(real) != 0 || !(p->reach > TINY)) return 0;
+    k->posed = s->pose != NULL;
+    if (k->posed) k->m = s->pose->m;
+    k->asked = AS_LIST;
+    k->list = (list){p->v, p->count, step, p->reach};
+    k->reach = p->reach;
+    k->limit = p->reach * (1 + 16 * UNIT); /* that of know_reach, of plain sizes */
+    return 1;
+}
+
+/* Without a frame, as settle_outside has it, but for what polygons are not. */
+HOT int settle_polygons(difference *d, const shape *a, const shape *b)
+{
+    stay_outside(d, a, b);
+    const real set_a = square_of_reach(&d->a, 1), map_a = square_of_map(&d->a, squared_axes(&d->a, 1));
+    const real set_b = square_of_reach(&d->b, 1), map_b = square_of_map(&d->b, squared_axes(&d->b, 1));
+    const real square = map_a * set_a + map_b * set_b + dot(d->c, d->c);
+    d->doubt = PLANAR_DOUBT * root(square);
+    d->a.norm = root(map_a);
+    d->b.norm = root(map_b);
+    return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN && square < PLAIN * PLAIN &&
+           a->radius >= 0 && b->radius >= 0 && a->radius + b->radius < PLAIN;
+}
+
+/* As the question has it: of the distance none is below 0. */
+HOT void say_plainly(result *r, int sign_only)
+{
+    if (sign_only) {
+        r->value = r->lower > 0 ? r->lower : r->upper;
+        return;
+    }
+    r->upper = larger(r->upper, 0);
+    r->lower = larger(r->lower, 0);
+    r->value = smaller(larger(r->value, r->lower), r->upper);
+}
+
+/* The everyday question of two polygons: how far apart, or whether they meet. 0: it is left to the whole answer, which
+ * goes on from there. */
+HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o, int sign_only, result *r)
+{
+    q->planar = UNTRIED;
+    if (!a || !b || !r || !asks_nothing_else(o) || !list_polygon(&q->d.a, a) || !list_polygon(&q->d.b, b)) return 0;
+    const goal g = {.beyond = REAL_MAX,
+                    .radius = a->radius + b->radius,
+                    .sign_only = sign_only,
+                    .max_steps = o && o->max_steps != 0 && o->max_steps < ASKED_MOST ? (int)o->max_steps : ASKED_MOST};
+    q->planar = UNCLEAR;
+    q->found.at.count = 0;
+    if (!settle_polygons(&q->d, a, b)) return 0;
+    q->planar = IN_VAIN;
+    if (!look_at_planar(q, o ? o->cache : NULL, 0, a, b, &g, r)) return 0;
+    say_plainly(r, sign_only);
+    return 1;
 }
 
 /* That they touch where they were left, with nothing rounded. */
@@ -604,13 +862,10 @@ static void pass_on(cache *own, const cache *found)
     own->reserved = found->reserved;
 }
 
-/* In the frame, where it was not clear without, nor in a glance, for which the search has been opened. What is left is
- * gone on with from there. */
-static inline int tell_polygons_in_frame(search *q, int opened, const shape *a, const shape *b, const options *o,
-                                         const goal *g, result *r)
+/* In the frame, where it was not clear without. What is left is gone on with from there. */
+static inline int tell_polygons_in_frame(search *q, const shape *a, const shape *b, const options *o, const goal *g,
+                                         result *r)
 {
-    const int late = q->planar == UNCLEAR && q->glanced != UNTRIED;
-    if (opened != late) return 0;
     if (q->planar == UNCLEAR) {
         q->planar = tell_planar_in_frame(q, o->cache, a, b, g, r) ? TELLING : IN_VAIN;
         q->told = q->planar == TELLING;
@@ -619,12 +874,14 @@ static inline int tell_polygons_in_frame(search *q, int opened, const shape *a, 
     q->told = !g->deep && tell_found(q, a, b, r);
     if (q->told && o->cache) pass_on(o->cache, &q->found.at);
     if (q->found.steps >= g->max_steps) q->found.at.count = 0;
-    if (!q->told && opened && q->found.at.count > 0) open_found(q);
     return q->told;
 }
 #else
+#define WHOLE inline
+#define are_planar(d) 0
+#define tell_at_once(q, a, b, o, sign_only, r) ((q)->planar = UNTRIED, 0)
 #define tell_polygons(q, a, b, o, g, r) ((void)0)
-#define tell_polygons_in_frame(q, opened, a, b, o, g, r) ((void)(g), 0)
+#define tell_polygons_in_frame(q, a, b, o, g, r) 0
 #endif
 
 #endif
