@@ -12,6 +12,7 @@
 #include "intersect.h"
 #include "plain.h"
 #include "planar.h"
+#include "stride.h"
 #include "thin.h"
 #include "widen.h"
 
@@ -87,6 +88,16 @@ static void remember(cache *k, const search *q, const shape *a, const shape *b)
     k->reserved = 0;
     keep_whose(k, q, a, b);
 }
+
+#if DIM == 3
+/* Strides where a glance was in vain. */
+static enum glanced stride_and_remember(search *q, const shape *a, const shape *b, const options *o, result *r)
+{
+    const enum glanced seen = stride_outside(q, (int)steps_of(o), a, b, r);
+    if (seen == TELLING && o->cache) remember(o->cache, q, a, b);
+    return seen;
+}
+#endif
 
 /* The goal in the search's scale. */
 static goal scaled(const goal *g, real scale)
@@ -455,22 +466,23 @@ static int tell_closely(search *q, const shape *a, const shape *b, const goal *g
 }
 
 /* Walks. Where a corner that was not sought along v, with care, is out of the ordinary, they touch, or one is sought
- * that way: at most once, since no other is rough from there on. */
+ * that way: at most once, since no other is rough from there on. Where strides have led is such a corner. */
 static inline enum end walk(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
     int thin = is_thin(&q->d.a) || is_thin(&q->d.b), boxes = q->d.a.asked == AS_BOX && q->d.b.asked == AS_BOX;
     int headings = thin || q->s.n > 0 ? 0 : HEADINGS, hasty = g->sign_only && !thin && !boxes;
+    int strode = q->glanced == STRODE && q->s.n <= DIM;
     for (;;) {
-        enum end end = stroll(q, g, headings, hasty);
-        if (end != OPEN || !q->rough || q->steps >= g->max_steps) return end;
+        enum end end = strode ? OPEN : stroll(q, g, headings, hasty);
+        if (end != OPEN || (!strode && !q->rough) || q->steps >= g->max_steps) return end;
         know_offset(&q->d, a, b);
-        q->told = !g->deep && tell_touch(q, a, b, r);
+        q->told = !g->deep && !(strode && q->stood) && tell_touch(q, a, b, r);
         if (q->told) return STILL;
-        if (++q->steps >= g->max_steps) {
+        if (!strode && ++q->steps >= g->max_steps) {
             raise(q, q->way, spare(&q->s)->w);
             return OPEN;
         }
-        headings = hasty = 0;
+        headings = hasty = strode = q->repeated = 0;
         if (!ask_on(&q->d, q->v, spare(&q->s))) return FAULT;
     }
 }
@@ -512,6 +524,7 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     const goal *g = asked;
     const int boxes = are_boxes(a, b);
     if (!settle_both(q, a, b)) return FAULT;
+    if (q->glanced == STRODE && q->d.wild) q->glanced = UNCLEAR;
     if (!is_scale_free(g)) {
         own = scaled(g, q->d.scale);
         g = &own;
@@ -527,6 +540,14 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && g->sign_only && q->glanced != AIMED))
         q->told = look_in_frame(q, g->max_steps, a, b, r);
     if (HAS_SISTER && g->sign_only && boxes && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
+#if DIM == 3
+    if (!q->told && q->glanced == UNCLEAR && are_for_strides(&q->d, a, b)) {
+        q->glanced = stride_in_frame(q, g->max_steps, a, b, r);
+        if (q->glanced == UNCLEAR) return FAULT;
+        q->told = q->glanced == TELLING;
+        if (q->told && o->cache) remember(o->cache, q, a, b);
+    }
+#endif
     if (q->told) return BEYOND;
     if (boxes && g->sign_only && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     enum end end = walk(q, a, b, g, r);
@@ -602,6 +623,9 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
     if (list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d) && !lender_of(a, b, o, 1))
         q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, out) : glance(q, a, b, out);
+#if DIM == 3
+    if (q->glanced == IN_VAIN) q->glanced = stride_and_remember(q, a, b, o, out);
+#endif
     if (q->glanced == TELLING) return out->status = GJK_DECIDED;
     o = keep_options(&own, o, given);
     real radius = a->radius + b->radius;

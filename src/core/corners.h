@@ -91,6 +91,10 @@ static inline void nearest_on_edge(const simplex *s, int i, int j, footing *f)
 static inline void stand_on(simplex *s, const footing *f, real weight[DIM + 1])
 {
     int n = 0;
+    if (f->mask == (1u << s->n) - 1) {
+        memcpy(weight, f->weight, sizeof f->weight);
+        return;
+    }
     for (int i = 0; i < s->n; i++)
         if (f->mask >> i & 1) weight[n++] = f->weight[i];
     keep(s, f->mask);

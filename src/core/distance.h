@@ -42,8 +42,8 @@ enum end {
 };
 
 /* How a glance at the first corner went: not cast; the sizes were none to tell by; it told nothing; it told nothing
- * along an axis of two boxes either; or the answer. */
-enum glanced { UNTRIED, UNCLEAR, IN_VAIN, AIMED, TELLING };
+ * along an axis of two boxes either; nor did a few strides from there; or the answer. */
+enum glanced { UNTRIED, UNCLEAR, IN_VAIN, AIMED, STRODE, TELLING };
 
 /* Where a walk was left, the count 0 if nowhere: the simplex, with what it took to come there, and what is known. */
 typedef struct find {
@@ -52,6 +52,14 @@ typedef struct find {
     real lower; /* in the caller's lengths */
     vec normal;
 } find;
+
+/* Where strides have led: the corners are in the search's slots, in lengths of another frame. */
+typedef struct trail {
+    int at[DIM + 1], n;
+    real unscale, vv, lower;
+    vec normal;
+    int pending, steps, calls;
+} trail;
 
 typedef struct search {
     difference d;
@@ -81,7 +89,11 @@ typedef struct search {
 #if DIM == 2
     find found; /* where polygons looked at by themselves were left to the walk */
 #endif
-    int kept; /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
+#if DIM == 3
+    trail trail;
+#endif
+    int stood; /* the corner in the spare slot was sought in haste, and lies no lower along v */
+    int kept;  /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
 } search;
 
 /* |v| is below a sixteenth of a rounding of the frame, which is of size 1 to 2: it has no direction. Not as much as

@@ -18,7 +18,7 @@ typedef struct evidence {
 HOT evidence corner_shown(const difference *d, vec v, const vertex *p)
 {
     const vec x = mul(p->x, d->a.grain), y = mul(p->y, d->b.grain);
-    evidence e;
+    evidence e = {.height = 0};
     e.a = mapped(&d->a, x);
     e.b = mapped(&d->b, y);
     e.w = sub(e.a, add(e.b, d->c));
@@ -71,13 +71,14 @@ HOT void weigh_evidence(evidence *e, vec v, real doubt)
     e->upper = length(e->w) + doubt;
 }
 
-/* Of sharp bodies, in the caller's lengths. */
-HOT void spell_sharp(const search *q, const evidence *e, vec v, const shape *a, const shape *b, result *r)
+/* Of sharp bodies, whose lengths come times that power of two. */
+HOT void spell_sharp(const search *q, const evidence *e, vec v, real unscale, const shape *a, const shape *b, result *r)
 {
-    r->value = r->lower = e->lower;
-    r->upper = e->upper;
-    store(r->point_a, a->pose ? add(e->a, load(a->pose->p)) : e->a);
-    store(r->point_b, b->pose ? add(e->b, load(b->pose->p)) : e->b);
+    const vec on_a = mul(e->a, unscale), on_b = mul(e->b, unscale);
+    r->value = r->lower = e->lower * unscale;
+    r->upper = e->upper * unscale;
+    store(r->point_a, a->pose ? add(on_a, load(a->pose->p)) : on_a);
+    store(r->point_b, b->pose ? add(on_b, load(b->pose->p)) : on_b);
     EACH(r->normal[i] = 0 - v.c[i] / e->l);
     r->steps = q->steps + 1;
     r->supports = q->d.calls;
@@ -111,7 +112,7 @@ HOT int tell_evidence(search *q, evidence *e, vec v, const vertex *p, const shap
     weigh_evidence(e, v, d->doubt);
     if (!(e->lower > (a->radius + b->radius) * d->scale)) return 0;
     if (a->radius + b->radius > 0 || d->wild || d->scale != 1) return spell_evidence(q, e, v, p, a, b, r);
-    spell_sharp(q, e, v, a, b, r);
+    spell_sharp(q, e, v, 1, a, b, r);
     return 1;
 }
 

@@ -281,12 +281,37 @@ static int ask_centres(search *q)
     return q->pending;
 }
 
+#if DIM == 3
+/* From where strides have led. */
+static int take_up_trail(search *q)
+{
+    const trail *t = &q->trail;
+    const real by = q->d.scale * t->unscale;
+    memcpy(q->s.at, t->at, sizeof t->at);
+    q->s.n = t->n;
+    for (int i = 0; i < t->n + t->pending; i++) q->s.slot[t->at[i]].w = mul(corner(&q->s, i)->w, by);
+    q->v = mul(q->v, by);
+    q->vv = t->vv * (by * by);
+    q->inside *= by;
+    q->weighed = 1;
+    q->lower = larger(t->lower * by, -4);
+    q->normal = t->normal;
+    q->pending = t->pending;
+    q->steps = t->steps;
+    q->d.calls = t->calls;
+    return 1;
+}
+#endif
+
 /* And where the walk starts: from the points of the last query, which the cache lends, or from a corner that has been
  * asked for, or from nothing. 0: there is something wrong. */
 static int open_listed(search *q, const cache *k)
 {
 #if DIM == 2
     if (q->found.at.count > 0 && open_found(q)) return 1;
+#endif
+#if DIM == 3
+    if (q->glanced == STRODE && !q->d.wild) return take_up_trail(q);
 #endif
     const int steps = q->steps;
     if (k) {

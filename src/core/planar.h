@@ -143,18 +143,6 @@ static inline vec corner_given(const cluster *p, unsigned at)
     return nth_of(p->from, at < RUN ? at : at + p->from->count - PLACES);
 }
 
-/* The first of those bits; there is one. */
-static inline unsigned first_bit(unsigned set)
-{
-    unsigned at = 0;
-#if defined(__GNUC__) || defined(__clang__)
-    at = (unsigned)__builtin_ctz(set);
-#else
-    while (!(set >> at & 1)) at++;
-#endif
-    return at;
-}
-
 /* Rounded heights of all of them. */
 HOT void raise_placed(const cluster *p, vec v, lanes heights[PLACES / LANES])
 {

@@ -155,6 +155,53 @@ HOT size_t farthest_of_few(const list *l, vec d, enum care care)
     return tells_equals(care) || l->count <= 3 ? settle_summit(l, d, s) : s.at;
 }
 
+static inline real sum_of_lanes(lanes x)
+{
+    real parts[LANES], sum = 0;
+    part_lanes(x, parts);
+    for (int k = 0; k < LANES; k++) sum += parts[k];
+    return sum;
+}
+
+/* The first of those bits; there is one. */
+static inline unsigned first_bit(unsigned set)
+{
+    unsigned at = 0;
+#if defined(__GNUC__) || defined(__clang__)
+    at = (unsigned)__builtin_ctz(set);
+#else
+    while (!(set >> at & 1)) at++;
+#endif
+    return at;
+}
+
+/* The first of the highest of less than MANY points, but a RUN of them at least, by rounded heights. Which it is is
+ * read off bits, one for each: nothing is branched on. The last run is of the last ones, some of them once more. */
+HOT size_t highest_of_few(const list *l, vec d, int strangers)
+{
+    const size_t n = l->count, step = l->step, last = n - RUN;
+    const ways way = ways_of(d);
+    real height[MANY];
+    lanes most = in_all(-REAL_MAX), total = in_all(0);
+    unsigned at = 0;
+    for (size_t i = 0;; i = i + RUN < last ? i + RUN : last) {
+        for (size_t k = i; k < i + RUN; k += LANES) {
+            const lanes next = heights(l->v + k * step, step, &way);
+            part_lanes(next, height + k);
+            most = larger_ones(next, most);
+            if (strangers) total = sums(total, next);
+        }
+        if (i == last) break;
+    }
+    if (strangers && has_none(l, d, sum_of_lanes(total))) return n;
+    most = largest_in_all(most);
+    for (size_t i = 0;; i = i + RUN < last ? i + RUN : last) {
+        for (size_t k = i; k < i + RUN; k += LANES) at |= (unsigned)any_as_large(join_lanes(height + k), most) << k;
+        if (i == last) break;
+    }
+    return at ? first_bit(at) : 0;
+}
+
 /* A summit in each lane, of runs. */
 typedef struct summits {
     lanes highest, second;
@@ -167,14 +214,6 @@ static inline summits see_run(summits s, lanes height, indices at)
     s.at = where_larger(height, s.highest, at, s.at);
     s.highest = larger_ones(height, s.highest);
     return s;
-}
-
-static inline real sum_of_lanes(lanes x)
-{
-    real parts[LANES], sum = 0;
-    part_lanes(x, parts);
-    for (int k = 0; k < LANES; k++) sum += parts[k];
-    return sum;
 }
 
 /* The point that is the highest of all lanes. */
@@ -237,6 +276,7 @@ static APART size_t farthest_of_many_in_haste(const list *l, vec d) { return far
  * sight, and of so few as a segment or a triangle has, almost equals are told apart in any case. */
 HOT size_t farthest_among(const list *l, vec d, enum care care)
 {
+    if (l->count < MANY && l->count > 3 && !tells_equals(care)) return highest_of_few(l, d, is_of_strangers(care));
     if (l->count < MANY) return farthest_of_few(l, d, care);
     if (care == HASTY) return farthest_of_many_in_haste(l, d);
     return is_of_strangers(care) ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
