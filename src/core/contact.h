@@ -250,6 +250,26 @@ static void point_out(depth *d, real weight[DIM + 1])
     if (off > 4 * UNIT) hand_over_from_any(d, off, weight);
 }
 
+/* Normal and points go with the lowest dip, if that is as low as any direction asked. 0: they don't, and all tips are
+ * corners again. */
+static int stand_in_dip(depth *d, real weight[DIM + 1])
+{
+    const dip *f = lowest_dip(d);
+    search *q = d->q;
+    if (f && f->below >= q->lower - 4 * q->d.doubt) {
+        start_over(q);
+        *spare(&q->s) = f->corner;
+        q->s.n = 1;
+        weight[0] = 1;
+        q->v = f->corner.w;
+        if (f->below >= q->lower - 2 * UNIT) q->normal = f->n;
+        return 1;
+    }
+    for (int i = 0; i < count_dips(d); i++)
+        if (d->dips->at[i].planted) pull_back(&d->p, &d->dips->at[i]);
+    return 0;
+}
+
 /* The bounds as they are now, and whether what is settled is proven. */
 static void prove(depth *d, real *upper)
 {
@@ -262,6 +282,11 @@ static void prove(depth *d, real *upper)
 static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
 {
     const goal *g = d->g;
+    dips own;
+    own.n = 0;
+    own.best = NULL;
+    own.tried = REAL_MAX;
+    if (!g->exact && know_bulk(&own.bulk, &d->q->d, d->a, d->b)) d->dips = &own;
     d->p.fine = g->exact;
     d->p.whole = &d->q->d;
     d->p.noise = (d->p.fine ? 32 * UNIT : 4) * UNIT;
@@ -281,6 +306,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     d->near = end == OPEN && !g->exact ? smaller(d->q->lower + 2 * d->q->d.doubt, *upper) : *upper;
     if (d->settled) d->q->normal = d->normal;
     if (flat || !d->floor) return end;
+    if (stand_in_dip(d, weight)) return end;
     if (end == OPEN) turn_to_normal(d);
     if (d->settled || end == OPEN) hand_over(d, weight);
     else point_out(d, weight);

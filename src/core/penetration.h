@@ -10,6 +10,7 @@
 
 #include "listed.h"
 #include "polytope.h"
+#include "round.h"
 #include "tight.h"
 
 /* What the proof needs to know of some facets. */
@@ -32,6 +33,16 @@ typedef struct outlook {
     real excess;          /* of |n| above 1 */
 } outlook;
 
+/* Where the heights of round sets are least nearby. */
+#define MOST_DIPS 4
+typedef struct dips {
+    bulk bulk; /* what heights are made of */
+    dip at[MOST_DIPS];
+    dip *best; /* the lowest; NULL: none */
+    int n;
+    real tried; /* how deep it was known to be at most when one was last looked for */
+} dips;
+
 typedef struct depth {
     search *q;
     const shape *a, *b;
@@ -39,6 +50,7 @@ typedef struct depth {
     polytope p;
     facet *floor;  /* the lowest facet, at the end */
     tally dropped; /* of facets that the surface has but the polytope no longer */
+    dips *dips;    /* NULL: it is not known what heights are made of */
     vec along;     /* the direction asked last, of known corners to all digits, */
     real below;    /*   and the bound from below that it gave */
     real least;    /* of known corners the least height seen of A - B, by rounded numbers, the way along which, */
@@ -642,16 +654,53 @@ static int goes_around(depth *d, real least)
     return 0;
 }
 
+static inline int count_dips(const depth *d) { return d->dips ? d->dips->n : 0; }
+
+static inline dip *lowest_dip(const depth *d) { return d->dips ? d->dips->best : NULL; }
+
+/* Whether the dip's tip is of no account to what is to be proven: that A - B is as high as r along all ways. */
+static int is_sound(const dip *f, real r) { return floor_near(f, reach_of_tip(f, r), r) >= r; }
+
+/* Moves the dip's tip back to A - B, where it is a corner as others are. 0: facets around it have been dropped. */
+static int pull_back(polytope *p, dip *f)
+{
+    int at = 0;
+    while (at < p->tips && !same(p->tip[at].w, f->at)) at++;
+    if (f->frayed || at == p->tips) return 0;
+    p->tip[at].w = f->corner.w;
+    for (int k = 0; k < p->facets; k++)
+        for (int i = 0; i < DIM; i++)
+            if (p->facet[k].v[i] == at) sharpen_facet(p, &p->facet[k]);
+    f->planted = 0;
+    return 1;
+}
+
+/* Adds up what is known of all facets. How low they are, or the planted dips; where the tip of one of these is of
+ * account to that, it is pulled back. */
+static real count_surface(depth *d, tally *all)
+{
+    *all = d->dropped;
+    if (d->floor) count_height(d, d->floor, all);
+    for (int k = 0; k < d->p.facets; k++)
+        if (&d->p.facet[k] != d->floor) count_height(d, &d->p.facet[k], all);
+    real least = all->least;
+    for (int i = 0; i < count_dips(d); i++)
+        if (d->dips->at[i].planted) least = smaller(d->dips->at[i].floor, least);
+    for (int i = 0; i < count_dips(d); i++)
+        if (d->dips->at[i].planted && !is_sound(&d->dips->at[i], least))
+            return pull_back(&d->p, &d->dips->at[i]) ? -1 : 0;
+    return least;
+}
+
 /* Bounds of what is known of the separation of the cores, to rounding; with known corners to next to none. Whether the
  * surface is proven to go around the origin, where that is of account. */
 static int bound(depth *d, real *upper)
 {
-    tally all = d->dropped;
-    if (d->floor) count_height(d, d->floor, &all);
-    for (int k = 0; k < d->p.facets; k++)
-        if (&d->p.facet[k] != d->floor) count_height(d, &d->p.facet[k], &all);
+    tally all;
+    real least = -1;
+    for (int i = 0; i <= count_dips(d) && least < 0; i++) least = count_surface(d, &all);
     int proven = all.facets > 0 && (d->settled || all.least > 0) && goes_around(d, all.least);
-    if (proven && all.least > 0) *upper = smaller(*upper, -all.least);
+    if (proven && least > 0) *upper = smaller(*upper, -least);
     if (d->g->exact) bound_along(d, d->floor ? d->floor->n : d->q->normal);
     return proven;
 }
@@ -736,6 +785,13 @@ static enum end look_beyond(depth *d, facet *f)
     return grown == FULL ? OPEN : STILL;
 }
 
+/* The facet is dropped, with the tip of a dip where that is. */
+static void fray_dips(depth *d, const facet *f)
+{
+    for (int i = 0; i < count_dips(d); i++)
+        for (int k = 0; k < DIM; k++) d->dips->at[i].frayed |= same(d->p.tip[f->v[k]].w, d->dips->at[i].at);
+}
+
 /* Drops what lies above the bound from below, which the depth does not. */
 static void make_room(depth *d)
 {
@@ -745,6 +801,7 @@ static void make_room(depth *d)
         if (d->p.facet[k].gone) {
             count_height(d, &d->p.facet[k], &d->dropped);
             count_angle(d, &d->p.facet[k], &d->dropped);
+            fray_dips(d, &d->p.facet[k]);
         }
     sweep(&d->p);
     forget_tips(&d->p);
@@ -776,16 +833,138 @@ static int walk_down(depth *d, vec n)
     return 1;
 }
 
+/* ---- dips of round sets ---- */
+
+/* The lowest dip near the best direction so far and the facets' normals. 0: there is none. */
+static int find_lowest_dip(const depth *d, int facets, bent *best)
+{
+    bent b;
+    int found = find_least(&d->dips->bulk, d->q->normal, best);
+    for (int k = 0; k < facets; k++) {
+        if (!find_least(&d->dips->bulk, d->p.facet[k].n, &b) || (found && !(b.height < best->height))) continue;
+        *best = b;
+        found = 1;
+    }
+    return found;
+}
+
+/* Takes in what is known of A - B along b's n, where the height has a dip. -1: a support's answer was none. 0: nothing
+ * is proven by it. */
+static int take_dip(depth *d, const bent *b, dip *f)
+{
+    search *q = d->q;
+    const real lower = q->lower;
+    const vec normal = q->normal;
+    tip t;
+    q->lower = -REAL_MAX;
+    if (!ask_along(d, b->n, &t)) return -1;
+    f->below = q->lower;
+    if (!(f->below > lower)) {
+        q->lower = lower;
+        q->normal = normal;
+    }
+    const real h = dot(b->n, t.w);
+    f->n = b->n;
+    f->corner = (vertex){t.w, t.x, t.y};
+    share_out(&d->dips->bulk, b, &f->corner);
+    f->corner.w = corner_of(&q->d, f->corner.x, f->corner.y);
+    f->height = h - 8 * UNIT * (size(h) + 2) - q->d.doubt - b->height_off;
+    f->bow = b->bow;
+    f->kink = b->kink;
+    f->bow_off = b->bow_off;
+    f->kink_off = b->kink_off;
+    f->sway = b->sway;
+    f->slope = length_across(b->slope) + b->slope_off;
+    return f->height > CLEAR && set_tip(f);
+}
+
+/* The polytope from the start again, without the tips of dips. 0: a support's answer was none. */
+static int start_again(depth *d)
+{
+    d->p.tips = d->p.facets = 0;
+    d->dropped = (tally){.least = REAL_MAX};
+    d->floor = NULL;
+    return first_surface(d) != FAULT;
+}
+
+/* The same for a lower dip than those before, which alone is kept. */
+static int stand_lower(depth *d)
+{
+    dips *all = d->dips;
+    all->at[0] = *all->best;
+    all->best = &all->at[0];
+    all->n = 1;
+    return start_again(d);
+}
+
+/* The same without any. */
+static int do_without_dips(depth *d)
+{
+    d->dips = NULL;
+    return start_again(d);
+}
+
+/* Where the depth has been seen to be less than the dips say, or there are none yet, looks for one that is lower. 0: a
+ * support's answer was none. */
+static int seek_dip(depth *d)
+{
+    bent b;
+    dips *all = d->dips;
+    const real least = -d->q->lower;
+    if (!all || all->n == MOST_DIPS || d->q->steps >= d->g->max_steps) return 1;
+    if (!(least < all->tried) || (all->best && !(least < all->best->floor - 4 * d->q->d.doubt))) return 1;
+    all->tried = least;
+    if (!find_lowest_dip(d, all->best || d->p.facets > DIM + 1 ? 0 : d->p.facets, &b)) return 1;
+    if (all->best && !(b.height < all->best->floor)) return 1;
+    const int taken = take_dip(d, &b, &all->at[all->n]);
+    if (taken <= 0) return taken == 0;
+    all->best = &all->at[all->n++];
+    for (int i = 0; i < all->n; i++)
+        if (all->at[i].planted && !is_sound(&all->at[i], all->best->floor)) return stand_lower(d);
+    return 1;
+}
+
+/* Whether what is left to prove is proven: the lowest facet is as high as the dip, to rounding. */
+static int is_proven(const depth *d, const facet *f)
+{
+    const dip *at = lowest_dip(d);
+    return at && floor_of(d, f) >= at->floor - d->q->d.doubt / 2;
+}
+
+/* The lowest dip, if its tip lies beyond the facet; NULL: it does not, or is planted. */
+static dip *dip_beyond(depth *d, const facet *f)
+{
+    dip *at = lowest_dip(d);
+    return at && !at->planted && dot(f->n, at->at) - f->height > CLEAR ? at : NULL;
+}
+
+/* Takes in its tip. */
+static enum end plant(depth *d, facet *f, dip *at)
+{
+    tip t = {at->at, axis(0, 0), at->corner.x, at->corner.y};
+    at->planted = 1;
+    at->frayed = 0;
+    return grow(&d->p, f, &t) == FULL ? OPEN : STILL;
+}
+
 /* STILL: nothing lies beyond the lowest facet. CLOSE: as tight as asked. OPEN: steps or workspace are used up. */
 static enum end deepen(depth *d)
 {
     for (int walked = d->g->exact;;) {
+        if (!seek_dip(d)) return FAULT;
+        if (d->p.facets == 0) return OPEN;
         if (d->p.tips == d->p.most_tips) make_room(d);
         facet *f = lowest(&d->p);
         d->floor = f;
         if (f->done) return STILL;
+        if (is_proven(d, f)) {
+            if (goes_around(d, d->dips->best->floor)) return CLOSE;
+            if (!do_without_dips(d)) return FAULT;
+            continue;
+        }
         if (d->q->steps >= d->g->max_steps) return OPEN;
-        enum end end = look_beyond(d, f);
+        dip *at = dip_beyond(d, f);
+        enum end end = at ? plant(d, f, at) : look_beyond(d, f);
         if (end == OPEN && !walked) {
             if (!walk_down(d, d->q->normal) || !walk_down(d, f->n)) return FAULT;
             walked = 1;
