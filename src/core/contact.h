@@ -262,7 +262,7 @@ static int stand_in_dip(depth *d, real weight[DIM + 1])
         q->s.n = 1;
         weight[0] = 1;
         q->v = f->corner.w;
-        if (f->below >= q->lower - 2 * UNIT) q->normal = f->n;
+        q->normal = f->n;
         return 1;
     }
     for (int i = 0; i < count_dips(d); i++)
