@@ -875,7 +875,10 @@ static int take_dip(depth *d, const bent *b, dip *f)
     f->kink_off = b->kink_off;
     f->sway = b->sway;
     f->slope = length_across(b->slope) + b->slope_off;
-    return f->height > CLEAR && set_tip(f);
+    if (f->height > CLEAR && set_tip(f)) return 1;
+    q->lower = lower; /* no facet may be near that n, for points to go with it */
+    q->normal = normal;
+    return 0;
 }
 
 /* The polytope from the start again, without the tips of dips. 0: a support's answer was none. */
