@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xae77dfcf66c1956a, 0x16060bb4d1e2cdec, 0x53b90eb09e057113};
+static const uint64_t known[3] = {0x7e9628e0ea4fbe32, 0x857aa64575e60cda, 0x16b15a8076299b45};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xfe0df447db9e91b1, 0x3e8eee700602a52d, 0x3f06fd9bd99a33ba};
+static const uint64_t known[3] = {0xfe0df447db9e91b1, 0x0605c304e879ffd0, 0x248a9463eb26b1c4};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x4ee60caaee30dfcb, 0x0e6898eff78c2d9b, 0x03dd88997c35b058};
+static const uint64_t known[3] = {0x1c07de63729d03fd, 0x8282f36a3da0699e, 0x05db8c75f2e736f7};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xa027c7982e2a9ac5, 0x97e949c5d004661d, 0x332ff50ac00bb809};
+static const uint64_t known[3] = {0xf0380bfb1e6da289, 0x02e43739a4da08ca, 0x702c1eeea2c6e38a};
 #endif
 #if VARIANT_FLOAT
 typedef float real;
