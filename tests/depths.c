@@ -908,6 +908,51 @@ static void all_but_concentric(void **state)
     assert_int_equal(astray, 0);
 }
 
+#if DIM == 3
+/* The tip of a cone in another, next to its axis: the ways out all around are about as short, and along each of them
+ * heights have a crease, where the tip's ways and those of the round side meet. As a larger room has it, as a rule. */
+static void tips_next_to_axes(void **state)
+{
+    long limits = 0, near = 0;
+    double widest = 0;
+    (void)state;
+    for (at = 0; at < pairs_per_family; at++) {
+        V(options) o = default_options();
+        V(result) r, larger;
+        draws d = draws_from(seed, 2003, (uint64_t)at);
+        const double angle = between(&d, 2.8, 3.5), deep = between(&d, 5e-4, 2e-3);
+        body *a = &drawn.a, *b = &drawn.b;
+        draw_any(&d, a, CONE);
+        draw_any(&d, b, CONE);
+        for (int i = 0; i < DIM * DIM; i++) {
+            a->pose.m[i] = b->pose.m[i] = i % (DIM + 1) == 0;
+        }
+        b->pose.m[4] = b->pose.m[8] = (real)cos(angle);
+        b->pose.m[7] = (real)sin(angle);
+        b->pose.m[5] = -b->pose.m[7];
+        for (int i = 0; i < DIM; i++) {
+            a->pose.p[i] = 0;
+            b->pose.p[i] = -b->half_length * b->pose.m[DIM * i + 2] + (real)(deep * between(&d, -0.01, 0.01));
+        }
+        b->pose.p[2] += a->half_length - (real)deep;
+        bind_pair(&drawn);
+        p = &drawn;
+        find_truth_of_pair();
+        ask_for_truth(NULL, &r);
+        limits += r.status == GJK_LIMIT;
+        o.workspace = room.bytes;
+        o.workspace_bytes = (uint32_t)V(workspace_size)(LARGER_ROOM);
+        ask_for_truth(&o, &larger);
+        near += fabs((double)r.value - (double)larger.value) <= fmax(1e-10, 64 * U) * span();
+        widest = fmax(widest, width_of(&r) / span());
+    }
+    printf("%-6s tips next to axes: %ld limits, %ld as a larger room has it, widest %.2g\n", VARIANT, limits, near,
+           widest);
+    assert_true(limits > pairs_per_family / 20);
+    assert_true(is_share(near, pairs_per_family, 0.9));
+}
+#endif
+
 /* ---- cores that are small beside their radii ---- */
 
 static real draw_small(draws *d, body *b)
@@ -1574,6 +1619,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(stacked),
         cmocka_unit_test(round_shapes),
         cmocka_unit_test(all_but_concentric),
+#if DIM == 3
+        cmocka_unit_test(tips_next_to_axes),
+#endif
         cmocka_unit_test(small_cores),
         cmocka_unit_test(last_places_of_depths),
         cmocka_unit_test(flat_pairs),

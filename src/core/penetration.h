@@ -58,6 +58,8 @@ typedef struct depth {
     vec least_at;
     outlook sight;      /* and what is looked along */
     real near;          /* the value is in the middle between there and the bound from below */
+    int rested;         /* a walk down came to where heights are the least nearby; */
+    int narrowed;       /*   none did, and facets were dropped that may be as low as any */
     int settled, flush; /* the depth is known without rounding; of the cores it is 0 */
     real ends[3];       /* the bracket of the separation then, radii included, and the value */
     vec normal;         /* that goes with it */
@@ -792,11 +794,9 @@ static void fray_dips(depth *d, const facet *f)
         for (int k = 0; k < DIM; k++) d->dips->at[i].frayed |= same(d->p.tip[f->v[k]].w, d->dips->at[i].at);
 }
 
-/* Drops what lies above the bound from below, which the depth does not. */
-static void make_room(depth *d)
+/* Drops the facets that are marked, once they have been counted. */
+static void drop_marked(depth *d)
 {
-    raise_kept(d);
-    mark_above(&d->p, -d->q->lower);
     for (int k = 0; k < d->p.facets; k++)
         if (d->p.facet[k].gone) {
             count_height(d, &d->p.facet[k], &d->dropped);
@@ -806,6 +806,26 @@ static void make_room(depth *d)
     sweep(&d->p);
     forget_tips(&d->p);
 }
+
+/* Drops what lies above the bound from below, which the depth does not. */
+static void make_room(depth *d)
+{
+    raise_kept(d);
+    mark_above(&d->p, -d->q->lower);
+    drop_marked(d);
+}
+
+/* Drops what looks aside from the way that is known best, though the depth may lie there: the bound from above is no
+ * more than what that leaves, but the one from below goes on. */
+static void narrow_down(depth *d)
+{
+    mark_aside(&d->p, d->q->normal);
+    drop_marked(d);
+    d->narrowed = 1;
+}
+
+/* Nothing that was dropped so is lower than the floor. */
+static int is_floor_of_all(const depth *d) { return !d->narrowed || d->floor->height <= d->dropped.least; }
 
 /* So often a direction is turned on the way down. */
 #define TURNS 16
@@ -823,7 +843,10 @@ static int walk_down(depth *d, vec n)
         vec aside = sub(t.w, mul(n, dot(n, t.w))), moved = sub(aside, last);
         real bend = dot(turn, moved), far = length(aside);
         if (i > 0) share = bend > 0 ? dot(turn, turn) / bend : 2 * share;
-        if (!(share * far * far > q->d.doubt)) break;
+        if (!(share * far * far > q->d.doubt)) {
+            d->rested = 1;
+            break;
+        }
         vec next = sub(n, mul(aside, smaller(share, (real)0.25 / far)));
         next = mul(next, 1 / length(next));
         turn = sub(next, n);
@@ -831,6 +854,30 @@ static int walk_down(depth *d, vec n)
         n = next;
     }
     return 1;
+}
+
+/* Looks along the points of the facet's edges that are nearest the origin. Where heights have a crease, as where a
+ * corner of one body meets a round side of the other, the least is in it: square to an edge that leads to that corner,
+ * while a facet looks aside by what the round side bends within it. 0: a support's answer was none. */
+static int look_along_edges(depth *d, const facet *f)
+{
+#if DIM == 3
+    for (int i = 0; i < 3 && d->q->steps < d->g->max_steps; i++) {
+        tip t;
+        const vec v = nearest_of_edge(&d->p.tip[f->v[i]], &d->p.tip[f->v[(i + 1) % 3]]);
+        if (dot(v, v) > 0 && length(v) <= 2 * f->height && !ask_along(d, unit_of(v, v), &t)) return 0;
+    }
+#endif
+    return d && f;
+}
+
+/* Looks for the least height near the lowest facet, where facets are used up. 0: a support's answer was none. */
+static int look_lower(depth *d, const facet *f, int first)
+{
+    if (!look_along_edges(d, f)) return 0;
+    if (!first) return 1;
+    const vec best = d->q->normal;
+    return walk_down(d, best) && (!d->rested || walk_down(d, f->n));
 }
 
 /* ---- dips of round sets ---- */
@@ -886,6 +933,7 @@ static int start_again(depth *d)
 {
     d->p.tips = d->p.facets = 0;
     d->dropped = (tally){.least = REAL_MAX};
+    d->narrowed = 0;
     d->floor = NULL;
     return first_surface(d) != FAULT;
 }
@@ -931,7 +979,7 @@ static int seek_dip(depth *d)
 static int is_proven(const depth *d, const facet *f)
 {
     const dip *at = lowest_dip(d);
-    return at && floor_of(d, f) >= at->floor - d->q->d.doubt / 2;
+    return at && !d->narrowed && floor_of(d, f) >= at->floor - d->q->d.doubt / 2;
 }
 
 /* The lowest dip, if its tip lies beyond the facet; NULL: it does not, or is planted. */
@@ -950,16 +998,26 @@ static enum end plant(depth *d, facet *f, dip *at)
     return grow(&d->p, f, &t) == FULL ? OPEN : STILL;
 }
 
+/* So often facets that look aside are dropped where heights have a crease, on which no walk comes to rest. */
+#define NARROWINGS 3
+
+/* Where room is used up so often before. Once, but for creases: what dips prove is lost with facets dropped so. */
+static int may_look_lower(const depth *d, int full)
+{
+    if (d->g->exact) return 0;
+    return full == 0 || (full <= NARROWINGS && !d->rested && !lowest_dip(d));
+}
+
 /* STILL: nothing lies beyond the lowest facet. CLOSE: as tight as asked. OPEN: steps or workspace are used up. */
 static enum end deepen(depth *d)
 {
-    for (int walked = d->g->exact;;) {
+    for (int full = 0;;) {
         if (!seek_dip(d)) return FAULT;
         if (d->p.facets == 0) return OPEN;
         if (d->p.tips == d->p.most_tips) make_room(d);
         facet *f = lowest(&d->p);
         d->floor = f;
-        if (f->done) return STILL;
+        if (f->done) return d->narrowed ? OPEN : STILL; /* a new facet by a wall may be lower, and no noise */
         if (is_proven(d, f)) {
             if (goes_around(d, d->dips->best->floor)) return CLOSE;
             if (!do_without_dips(d)) return FAULT;
@@ -968,12 +1026,12 @@ static enum end deepen(depth *d)
         if (d->q->steps >= d->g->max_steps) return OPEN;
         dip *at = dip_beyond(d, f);
         enum end end = at ? plant(d, f, at) : look_beyond(d, f);
-        if (end == OPEN && !walked) {
-            if (!walk_down(d, d->q->normal) || !walk_down(d, f->n)) return FAULT;
-            walked = 1;
+        if (end == OPEN && may_look_lower(d, full)) {
+            if (!look_lower(d, f, full == 0)) return FAULT;
+            if (full++ > 0) narrow_down(d);
             continue;
         }
-        if (end != STILL) return end;
+        if (end != STILL) return end == CLOSE && !is_floor_of_all(d) ? OPEN : end;
     }
 }
 

@@ -659,6 +659,16 @@ static facet *lowest(const polytope *p)
     return low;
 }
 
+/* Those that are not marked have a wall where they met one that is. */
+static void wall_off(polytope *p)
+{
+    for (int k = 0; k < p->facets; k++)
+        for (int i = 0; i < DIM; i++) {
+            int16_t *next = &p->facet[k].next[i];
+            if (*next != WALL && p->facet[*next].gone) *next = WALL;
+        }
+}
+
 /* Marks the facets above some height that have no corner in common with one below, nor with the lowest. */
 static void mark_above(polytope *p, real height)
 {
@@ -673,11 +683,22 @@ static void mark_above(polytope *p, real height)
         f->gone = 1;
         for (int i = 0; i < DIM; i++) f->gone &= !near[f->v[i]].v[0];
     }
-    for (int k = 0; k < p->facets; k++)
-        for (int i = 0; i < DIM; i++) {
-            int16_t *next = &p->facet[k].next[i];
-            if (*next != WALL && p->facet[*next].gone) *next = WALL;
-        }
+    wall_off(p);
+}
+
+/* Marks the facets that look farther aside from n than half as far as they do on the average, beyond the one that does
+ * least; but not the lowest. */
+static void mark_aside(polytope *p, vec n)
+{
+    real mean = 0, most = -1;
+    for (int k = 0; k < p->facets; k++) {
+        const real along = dot(p->facet[k].n, n);
+        mean += along / (real)p->facets;
+        most = larger(along, most);
+    }
+    for (int k = 0; k < p->facets; k++) p->facet[k].gone = dot(p->facet[k].n, n) < (mean + most) / 2;
+    lowest(p)->gone = 0;
+    wall_off(p);
 }
 
 /* Drops the tips that no facet has. */
