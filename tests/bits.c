@@ -17,13 +17,13 @@
 static const uint64_t known[3] = {0x7e9628e0ea4fbe32, 0x857aa64575e60cda, 0x16b15a8076299b45};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xfe0df447db9e91b1, 0x0605c304e879ffd0, 0x248a9463eb26b1c4};
+static const uint64_t known[3] = {0xfe0df447db9e91b1, 0x0605c304e879ffd0, 0xc16170208596be84};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x1c07de63729d03fd, 0x8282f36a3da0699e, 0x05db8c75f2e736f7};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xf0380bfb1e6da289, 0x02e43739a4da08ca, 0x702c1eeea2c6e38a};
+static const uint64_t known[3] = {0x07149866e24379e0, 0xd3d29fe567945c23, 0x55539bf7a630f8f5};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -586,11 +586,69 @@ static void axes_short_by_roundings(void **state)
     assert_int_equal(found.count, 0);
 }
 
+/* In line with the frame, in another unit, a power of two away: the same bits, also where sizes are wild there. */
+static void in_line_in_another_unit(void **state)
+{
+    const int most = sizeof(real) == 8 ? 600 : 60;
+    (void)state;
+    for (at = 0; at < 300; at++) {
+        draws d = draws_from(31, 0, (uint64_t)at);
+        const int power = below(&d, 2 * most) - most;
+        V(result) r[2];
+        memset(r, 0, sizeof r);
+        start_body(&p.a, BOX);
+        start_body(&p.b, BOX);
+        for (int i = 0; i < DIM; i++) {
+            p.a.half[i] = (real)between(&d, 0.1, 2);
+            p.b.half[i] = (real)between(&d, 0.1, 2);
+            p.b.pose.p[i] = (real)between(&d, -1, 1);
+        }
+        for (int k = 0; k < 2; k++) {
+            bind_pair(&p);
+            assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r[k]) >= 0);
+            scale_pair(&p, ldexp(1, power));
+        }
+        assert_true((double)r[0].lower * ldexp(1, power) == (double)r[1].lower);
+        assert_true((double)r[0].value * ldexp(1, power) == (double)r[1].value);
+        assert_true((double)r[0].upper * ldexp(1, power) == (double)r[1].upper);
+    }
+}
+
+/* Slack as large as a number is takes all that is known of the depth, and leaves a number. */
+static void slack_beyond_all(void **state)
+{
+    V(options) o;
+    V(result) r;
+    (void)state;
+    memset(&o, 0, sizeof o);
+    memset(&r, 0, sizeof r);
+    o.size = sizeof o;
+    start_body(&p.a, BOX);
+    start_body(&p.b, BOX);
+    for (int i = 0; i < DIM; i++) {
+        p.a.half[i] = p.b.half[i] = 1;
+    }
+    p.b.pose.m[0] = p.b.pose.m[DIM + 1] = (real)0.8;
+    p.b.pose.m[1] = (real)0.6;
+    p.b.pose.m[DIM] = (real)-0.6;
+    p.b.pose.p[0] = (real)0.3;
+    bind_pair(&p);
+    for (int k = 0; k < 2; k++) {
+        p.a.shape.radius = (real)(0.25 * k);
+        o.slack = REAL_MAX;
+        for (int i = 0; i < 20; i++, o.slack = (real)((double)o.slack * 0.75)) {
+            assert_true(V(penetration)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+            assert_true(r.lower >= -REAL_MAX && r.lower <= r.value && r.value <= r.upper);
+        }
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(depths_of_boxes), cmocka_unit_test(signs_of_boxes),
-                                       cmocka_unit_test(numbers_that_underflow),
-                                       cmocka_unit_test(axes_short_by_roundings)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(depths_of_boxes),         cmocka_unit_test(signs_of_boxes),
+        cmocka_unit_test(numbers_that_underflow),  cmocka_unit_test(axes_short_by_roundings),
+        cmocka_unit_test(in_line_in_another_unit), cmocka_unit_test(slack_beyond_all)};
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

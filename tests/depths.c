@@ -870,6 +870,31 @@ static void round_shapes(void **state)
     assert_true(is_share(c.larger, c.pairs, SHARE));
 }
 
+/* What is found to all digits is found as roughly as is asked, too, and the normal realises the bound. */
+static void round_shapes_roughly(void **state)
+{
+    (void)state;
+    for (at = 0; at < 2 * pairs_per_family; at++) {
+        V(options) o = default_options();
+        V(result) exactly, r;
+        draws d = draws_from(seed, 2003, (uint64_t)at);
+        draw_any(&d, &drawn.a, ELLIPSOID);
+        draw_any(&d, &drawn.b, at % 2 ? ELLIPSOID : BOX);
+        p = &drawn;
+        for (int i = 0; i < DIM; i++) {
+            drawn.b.pose.p[i] = (real)between(&d, -0.5, 0.5);
+        }
+        bind_pair(&drawn);
+        ask(NULL, &exactly);
+        o.abs_tol = (real)magnitude(&d, -4, 0);
+        ask(&o, &r);
+        expect_answer("exactly, but not roughly", &r, r.status == GJK_OK || exactly.status != GJK_OK);
+        expect_answer("the normal does not realise lower", &r,
+                      quad_abs((quad)r.lower + along_normal(&drawn.a, r.normal, 1) +
+                               along_normal(&drawn.b, r.normal, -1)) <= (quad)(64 * U * span()));
+    }
+}
+
 /* Ellipsoids all but concentric, with many ways out about as short: where the usual room is full before the surface is
  * done, the value is that of the best direction nearby, as a larger room finds it; of a few it is that of another. */
 static void all_but_concentric(void **state)
@@ -1618,6 +1643,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(concentric),
         cmocka_unit_test(stacked),
         cmocka_unit_test(round_shapes),
+        cmocka_unit_test(round_shapes_roughly),
         cmocka_unit_test(all_but_concentric),
 #if DIM == 3
         cmocka_unit_test(tips_next_to_axes),

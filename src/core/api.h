@@ -691,6 +691,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     enum end end;
     int bad = reply_to(&q, a, b, o, &g, &end, &r);
     if (bad) return bad;
+    r.lower = larger(r.lower, -REAL_MAX); /* any slack may have been taken off */
     r.value = smaller(larger(r.value, r.lower), r.upper);
     r.status = distance_status(&r, o, end, &q, radius, 1);
     if (g.tight && r.status == GJK_OK && !narrow(&r, o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;

@@ -203,6 +203,12 @@ static inline span reach_level(const body *k, int i)
     return span_times((span){half_of(k, i) * k->grain, 0, 0}, (span){size(entry_of(k, i)), 0, 0});
 }
 
+/* Nothing of that has underflowed. */
+static inline int is_reach_whole(span reach, const body *k, const shape *s, int i)
+{
+    return reach.high > 1 / PLAIN || half_of(k, i) == 0 || (k->posed && s->pose->m[(DIM + 1) * i] == 0);
+}
+
 /* All that is there came to the frame without rounding. */
 static int are_whole(const difference *d, const shape *a, const shape *b)
 {
@@ -210,6 +216,7 @@ static int are_whole(const difference *d, const shape *a, const shape *b)
     for (int i = 0; i < DIM; i++) {
         r &= is_whole(half_of(&d->a, i), half_of(&d->a, i) * d->a.grain);
         r &= is_whole(half_of(&d->b, i), half_of(&d->b, i) * d->b.grain);
+        r &= is_reach_whole(reach_level(&d->a, i), &d->a, a, i) & is_reach_whole(reach_level(&d->b, i), &d->b, b, i);
     }
     return r;
 }
@@ -229,7 +236,7 @@ static int tell_level(search *q, const shape *a, const shape *b, const goal *g, 
     real lower = 0, least = REAL_MAX, sign[DIM], share[DIM];
     twin deep = {REAL_MAX, 0};
     vec x, y;
-    if (d->wild || !(g->radius < PLAIN) || !is_in_line(&d->a) || !is_in_line(&d->b)) return 0;
+    if (!(g->radius < PLAIN) || !is_in_line(&d->a) || !is_in_line(&d->b)) return 0;
     know_offset(d, a, b);
     for (int i = 0; i < DIM; i++) {
         const real c = d->c.c[i];

@@ -278,7 +278,8 @@ static void prove(depth *d, real *upper)
 }
 
 /* The cores meet, or nearly so: how deep. Where the difference is flat to rounding, the search's points, which are one
- * to rounding, are the contact. */
+ * to rounding, are the contact. What curvature proves is worth its while where all digits are asked for, and only there
+ * do bounds and normal stay together with it. */
 static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
 {
     const goal *g = d->g;
@@ -286,7 +287,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.n = 0;
     own.best = NULL;
     own.tried = REAL_MAX;
-    if (!g->exact && know_bulk(&own.bulk, &d->q->d, d->a, d->b)) d->dips = &own;
+    if (!g->exact && !g->early && know_bulk(&own.bulk, &d->q->d, d->a, d->b)) d->dips = &own;
     d->p.fine = g->exact;
     d->p.whole = &d->q->d;
     d->p.noise = (d->p.fine ? 32 * UNIT : 4) * UNIT;
