@@ -206,7 +206,8 @@ static int takes_normal(depth *d, const facet *f)
         q->lower = -REAL_MAX;
         bound_along(d, f->n);
     }
-    int as_good = q->lower >= best - 2 * UNIT;
+    const int asked = d->g->exact || same(d->along, f->n); /* where a dip ended it the facet was not */
+    const int as_good = asked && q->lower >= best - 2 * UNIT;
     q->normal = as_good ? f->n : normal;
     q->lower = larger(q->lower, best);
     return as_good;
