@@ -541,7 +541,8 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
         q->told = look_in_frame(q, g->max_steps, a, b, r);
     if (HAS_SISTER && g->sign_only && boxes && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
 #if DIM == 3
-    if (!q->told && q->glanced == UNCLEAR && are_for_strides(&q->d, a, b)) {
+    const int lost = q->d.wild && q->d.lost > 0; /* strides charge nothing for what underflows */
+    if (!q->told && !lost && q->glanced == UNCLEAR && are_for_strides(&q->d, a, b)) {
         q->glanced = stride_in_frame(q, g->max_steps, a, b, r);
         if (q->glanced == UNCLEAR) return FAULT;
         q->told = q->glanced == TELLING;

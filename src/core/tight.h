@@ -378,6 +378,7 @@ static enum end conclude(finish *f, search *q, const shape *a, const shape *b, i
     f->a = a;
     f->b = b;
     f->n = f->lost = 0;
+    if (q->s.n == 0) return FAULT; /* there is nothing to start from */
     if (holds_origin(q, a, b, weight)) {
         stay(f, q, weight);
         return STILL;
