@@ -116,11 +116,12 @@ GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gj
  * and point_a - point_b is depth * normal. Of round shapes the points are off sideways by about the
  * root of what the bracket is wide, and with GJK_LIMIT they go with the polytope as far as it got.
  *
- * The depth is sought by a polygon that grows within the difference of the shapes. Its corners have a workspace;
- * where that is full, those that can no longer matter make room, and where there are none the bracket holds all the
- * same, status GJK_LIMIT. 64 corners do for everyday polygons and round shapes. Radii take no room. cutoff and
- * tolerances are as for distance, and so is tight: a depth down to about the least that the coordinates can spell is
- * right to the last place. It takes up to 48 KB of stack, in float 28. */
+ * The depth is sought by a polygon that grows within the difference of the shapes. Its corners have a workspace; where
+ * that is full, those that can no longer matter make room, and where there are none the bracket holds all the same,
+ * status GJK_LIMIT. 64 corners do for everyday polygons and round shapes. Radii take no room. cutoff and tolerances are
+ * as for distance; of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth
+ * down to about the least that the coordinates can spell is right to the last place. It takes up to 48 KB of stack, in
+ * float 28. */
 GJK_API int gjk2f_penetration(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 7264 bytes of stack, in float 4160. Calls may run at once unless they share a workspace; what it holds before and
