@@ -70,8 +70,9 @@ typedef uint32_t bits;
 #define APART
 #endif
 
-/* Taken into each of its callers, however many: a call would cost more than it does. */
-#if defined(__GNUC__) || defined(__clang__)
+/* Taken into each of its callers, however many: a call would cost more than it does. Where size counts more, the
+ * compiler chooses. */
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__OPTIMIZE_SIZE__)
 #define HOT static inline __attribute__((always_inline))
 #else
 #define HOT static inline
