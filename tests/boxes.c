@@ -513,6 +513,19 @@ static void numbers_that_underflow(void **state)
     spell_cube(&p.b, 2, -1, 0, 0);
     p.b.pose.p[DIM - 1] = 4;
     expect("an entry of the map", -(quad)LEAST, -(quad)LEAST);
+    { /* far below all else of its map, it leans a box out of line, and makes it that much deeper */
+        const int wide = sizeof(real) == 8, of_map = wide ? 600 : 60, of_half = wide ? 300 : 20;
+        const double lean = wide ? 0x1p-500 : 0x1p-100;
+        spell_cube(&p.a, ldexp(1, of_map), 1, lean, 0);
+        spell_cube(&p.b, 1, -1, 0, 0);
+        for (int i = 0; i < DIM; i++) {
+            p.a.half[i] = (real)ldexp(1, of_half);
+            p.b.half[i] = (real)ldexp(1, of_half + of_map);
+        }
+        p.b.pose.p[0] = (real)ldexp(2, of_half + of_map);
+        bind_pair(&p);
+        expect("an entry far below the others", -(quad)ldexp(lean, of_half), -(quad)ldexp(lean, of_half));
+    }
     spell_cube(&p.a, 1024, -1, 0, 0); /* apart by 64 of it */
     spell_cube(&p.b, 1024, -1, 0, 0);
     p.b.pose.m[0] = (real)(-128 * LEAST);

@@ -185,11 +185,12 @@ static APART int tell_boxes(search *q, const shape *a, const shape *b, const goa
 
 /* ---- boxes in line with the frame: their difference is one, too ---- */
 
-/* The box's map takes each axis of the frame to itself, longer or shorter, or to nothing. */
-static inline int is_in_line(const body *k)
+/* The box's map takes each axis of the frame to itself, longer or shorter, or to nothing: as the caller gave it, since
+ * what is small beside the rest may underflow on its way to the frame. */
+static inline int is_in_line(const shape *s)
 {
     int r = 1;
-    for (int i = 1; i < DIM * DIM && k->posed && r; i++) r = i % (DIM + 1) == 0 || k->m[i] == 0;
+    for (int i = 1; i < DIM * DIM && s->pose && r; i++) r = i % (DIM + 1) == 0 || s->pose->m[i] == 0;
     return r;
 }
 
@@ -236,7 +237,7 @@ static int tell_level(search *q, const shape *a, const shape *b, const goal *g, 
     real lower = 0, least = REAL_MAX, sign[DIM], share[DIM];
     twin deep = {REAL_MAX, 0};
     vec x, y;
-    if (!(g->radius < PLAIN) || !is_in_line(&d->a) || !is_in_line(&d->b)) return 0;
+    if (!(g->radius < PLAIN) || !is_in_line(a) || !is_in_line(b)) return 0;
     know_offset(d, a, b);
     for (int i = 0; i < DIM; i++) {
         const real c = d->c.c[i];
