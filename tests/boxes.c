@@ -654,6 +654,17 @@ static void slack_beyond_all(void **state)
             assert_true(r.lower >= -REAL_MAX && r.lower <= r.value && r.value <= r.upper);
         }
     }
+    spell_cube(&p.a, 1, -1, 0, 0); /* what is proven by curvature before any facet has been asked */
+    spell_cube(&p.b, 1, -1, 0, 0);
+    p.a.half[1] = (real)0.5;
+    p.b.half[0] = 0;
+    p.b.half[1] = 4;
+    p.b.pose.p[1] = (real)0.125;
+    bind_pair(&p);
+    for (o.slack = 1; o.slack < 1000000; o.slack *= 4) {
+        assert_true(V(penetration)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+        assert_true(r.lower <= -1 && -1 <= r.upper);
+    }
 }
 
 int main(void)

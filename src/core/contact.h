@@ -201,12 +201,12 @@ static int takes_normal(depth *d, const facet *f)
     search *q = d->q;
     vec normal = q->normal;
     real best = q->lower;
-    q->lower = d->below;
+    const int asked = d->g->exact || same(d->along, f->n); /* where a dip ended it the facet was not, nor may any */
+    q->lower = asked ? d->below : best;
     if (d->g->exact) {
         q->lower = -REAL_MAX;
         bound_along(d, f->n);
     }
-    const int asked = d->g->exact || same(d->along, f->n); /* where a dip ended it the facet was not */
     const int as_good = asked && q->lower >= best - 2 * UNIT;
     q->normal = as_good ? f->n : normal;
     q->lower = larger(q->lower, best);
