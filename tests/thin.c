@@ -431,6 +431,33 @@ static void crossing_by_next_to_nothing(void **state)
     assert_int_equal(found.count, 0);
 }
 
+/* Two points, or one, are as good as a segment, however they are spelled: whether they touch is told. */
+static void touching_as_points(void **state)
+{
+    (void)state;
+    for (at = 0; at < 400; at++) {
+        draws d = draws_from(15, 0, (uint64_t)at);
+        V(result) r;
+        memset(&r, 0, sizeof r);
+        start_body(&p.a, POINTS);
+        start_body(&p.b, at % 3 ? SEGMENT : BOX);
+        p.a.count = 1 + (int)(at % 2);
+        for (int i = 0; i < DIM; i++) { /* with the middle in common, or the face's */
+            const double x = below(&d, 2001) - 1000, y = below(&d, 2001) - 1000;
+            p.a.v[0][i] = (real)(at % 2 ? y : 0);
+            p.a.v[1][i] = (real)-y;
+            p.b.v[0][i] = (real)x;
+            p.b.v[1][i] = (real)-x;
+            p.b.half[i] = (real)fabs(i == 0 ? 0 : x);
+        }
+        bind_pair(&p);
+        assert_int_equal(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r), GJK_DECIDED);
+        assert_true(r.lower <= 0 && r.upper <= 0);
+        assert_int_equal(V(intersect)(&p.b.shape, &p.a.shape, NULL, &r), GJK_DECIDED);
+        assert_true(r.lower <= 0 && r.upper <= 0);
+    }
+}
+
 /* At a corner of a box, in it, and at its middle, where more than one side is as near; and where a map skews it, so
  * that its axes tell where the point is but roughly. */
 static void in_boxes(void **state)
@@ -491,9 +518,10 @@ static void between_two_sides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thin_bodies),     cmocka_unit_test(with_options),
-        cmocka_unit_test(in_another_unit), cmocka_unit_test(crossing_by_next_to_nothing),
-        cmocka_unit_test(in_boxes),        cmocka_unit_test(between_two_sides),
+        cmocka_unit_test(thin_bodies),        cmocka_unit_test(with_options),
+        cmocka_unit_test(in_another_unit),    cmocka_unit_test(crossing_by_next_to_nothing),
+        cmocka_unit_test(in_boxes),           cmocka_unit_test(between_two_sides),
+        cmocka_unit_test(touching_as_points),
     };
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);

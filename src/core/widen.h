@@ -68,6 +68,16 @@ static int take_numbers(widened *w, const shape *s, sister(support_fn) * support
 #define KIN(name, n)                                                                                                   \
     if (s->support == pub(name)) return take_numbers(w, s, sister(name), n)
 
+/* One point, or two: a segment of hers, whose corners she knows, where callbacks leave contact open. */
+static int take_ends(widened *w, const points *p)
+{
+    const real *end[2] = {p->v, p->v + (p->count - 1) * stride_of(p)};
+    for (int i = 0; i < 2 * DIM; i++) w->numbers[i] = (double)end[i / DIM][i % DIM];
+    w->shape.support = sister(support_segment);
+    w->shape.data = w->numbers;
+    return 1;
+}
+
 /* The set in double. 0: it is nothing ready-made. */
 static int widen_set(widened *w, const shape *s)
 {
@@ -82,9 +92,11 @@ static int widen_set(widened *w, const shape *s)
     KIN(support_cone, 2);
     KIN(support_disc, 1);
 #endif
+    if (s->support != pub(support_points)) return 0;
+    if (((const points *)s->data)->count <= 2) return take_ends(w, s->data);
     w->shape.support = widened_points;
     w->shape.data = s->data;
-    return s->support == pub(support_points);
+    return 1;
 }
 
 static int widen(widened *w, const shape *s)
