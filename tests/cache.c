@@ -397,6 +397,46 @@ static void of_points_edited(void **state)
     }
 }
 
+#if DIM == 2
+/* Fewer of them, under the same name, one of which stands where a cache has one of many: it gets none from elsewhere.
+ */
+static void of_fewer_points(void **state)
+{
+    static real room[1 + 8][DIM]; /* in front of the corners is something else */
+    (void)state;
+    for (uint64_t i = 0; i < 20000; i++) {
+        draws d = draws_from(6, 11, i);
+        V(points) points = {room[1], 8, 0, 0, 3};
+        V(options) o = default_options();
+        V(result) r;
+        start_body(&p.a, POINTS);
+        draw_hull(&d, &p.b, 3, 1);
+        p.a.count = 3;
+        bind_pair(&p);
+        p.a.shape.data = &points;
+        for (int k = 0; k < 8; k++) {
+            room[1 + k][0] = (real)between(&d, -1, 1);
+            room[1 + k][1] = (real)between(&d, -1, 1);
+        }
+        room[0][0] = 77;
+        start_cache();
+        o.cache = &cache;
+        for (int fewer = 0; fewer < 2; fewer++) {
+            double dir[DIM];
+            unit(&d, dir);
+            memset(p.b.pose.p, 0, sizeof p.b.pose.p);
+            move(&p.b, dir, 3);
+            assert_true(V(distance)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+            points.count = 3;
+            memcpy(room[1], cache.a[0], sizeof room[1]);
+        }
+        for (uint32_t k = 0; k < cache.count; k++) {
+            assert_true(cache.a[k][0] <= 1);
+        }
+    }
+}
+#endif
+
 static real cube_of_unknown_reach(const void *data, const real *dir, real *point)
 {
     (void)data;
@@ -441,6 +481,9 @@ int main(void)
         cmocka_unit_test(of_a_cloud_edited),
         cmocka_unit_test(of_a_box_edited),
         cmocka_unit_test(of_points_edited),
+#if DIM == 2
+        cmocka_unit_test(of_fewer_points),
+#endif
         cmocka_unit_test(after_a_leap),
         cmocka_unit_test(after_slack),
     };

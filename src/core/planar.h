@@ -137,10 +137,13 @@ static inline vec place_of(const cluster *p, unsigned at) { return (vec){{p->at[
 
 static inline vec own_of(const cluster *p, unsigned at) { return (vec){{p->own[0][at], p->own[1][at]}}; }
 
-/* As it is given; of fewer than a run, one of the first that often. */
+/* As it is given: of fewer than a run, which stand there again and again, at any place, as a cache may name one where
+ * there were more. */
 static inline vec corner_given(const cluster *p, unsigned at)
 {
-    return nth_of(p->from, at < RUN ? at : at + p->from->count - PLACES);
+    const size_t count = p->from->count;
+    if (count < RUN) return nth_of(p->from, at % RUN % count);
+    return nth_of(p->from, at < RUN ? at : at + count - PLACES);
 }
 
 /* Rounded heights of all of them. */
