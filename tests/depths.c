@@ -895,6 +895,29 @@ static void round_shapes_roughly(void **state)
     }
 }
 
+/* Round bodies with several ways out that are as short but for some last places: the normal is that of the best bound.
+ */
+static void as_deep_several_ways(void **state)
+{
+    (void)state;
+    for (long k = 0; k < 10 * pairs_per_family; k++) {
+        V(result) r;
+        draws d = draws_from(seed, 2004, (uint64_t)k);
+        start_pair(k % 3 ? BOX : ELLIPSOID, ELLIPSOID);
+        for (int i = 0; i < DIM; i++) {
+            drawn.a.half[i] = (real)(1 + 2 * U * (below(&d, 200) - 100));
+            drawn.b.half[i] = (real)(1 + 2 * U * (below(&d, 200) - 100));
+            drawn.b.pose.p[i] = (real)(k % 2 ? 0 : between(&d, -64 * U, 64 * U));
+        }
+        drawn.b.half[below(&d, DIM)] = (real)between(&d, 2, 3);
+        bind_pair(&drawn);
+        ask(NULL, &r);
+        double off =
+            in_u((quad)r.lower + along_normal(&drawn.a, r.normal, 1) + along_normal(&drawn.b, r.normal, -1), span());
+        expect_answer("the normal does not realise lower", &r, off <= 16);
+    }
+}
+
 /* Ellipsoids all but concentric, with many ways out about as short: where the usual room is full before the surface is
  * done, the value is that of the best direction nearby, as a larger room finds it; of a few it is that of another. */
 static void all_but_concentric(void **state)
@@ -1644,6 +1667,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(stacked),
         cmocka_unit_test(round_shapes),
         cmocka_unit_test(round_shapes_roughly),
+        cmocka_unit_test(as_deep_several_ways),
         cmocka_unit_test(all_but_concentric),
 #if DIM == 3
         cmocka_unit_test(tips_next_to_axes),

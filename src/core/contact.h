@@ -251,13 +251,33 @@ static void point_out(depth *d, real weight[DIM + 1])
     if (off > 4 * UNIT) hand_over_from_any(d, off, weight);
 }
 
-/* Normal and points go with the lowest dip, if that is as low as any direction asked. 0: they don't, and all tips are
- * corners again. */
-static int stand_in_dip(depth *d, real weight[DIM + 1])
+/* The bound from below that the dip gave is the best one, to a few roundings. */
+static inline int bounds_as_well(const search *q, const dip *f) { return f->below >= q->lower - 8 * UNIT; }
+
+/* The dip that normal and points go with: the lowest, if that is as low as any direction asked; of some that are
+ * equally low, to what rounding hides, the one near the direction that has given the best bound. NULL: none. FAULT, and
+ * nothing else: a support's answer was none. */
+static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
 {
+    bent b;
     const dip *f = lowest_dip(d);
     search *q = d->q;
-    if (f && f->below >= q->lower - 4 * q->d.doubt) {
+    if (!f || !(f->below >= q->lower - 4 * q->d.doubt)) return NULL;
+    if (bounds_as_well(q, f)) return f;
+    if (q->steps >= d->g->max_steps || !find_least(&d->dips->bulk, q->normal, &b)) return NULL;
+    const int taken = take_dip(d, &b, other);
+    if (taken < 0) *end = FAULT;
+    return taken > 0 && bounds_as_well(q, other) ? other : NULL;
+}
+
+/* Normal and points go with a dip, if one is as low as any direction asked. 0: they don't, and all tips are corners
+ * again. */
+static int stand_in_dip(depth *d, real weight[DIM + 1], enum end *end)
+{
+    dip other;
+    search *q = d->q;
+    const dip *f = dip_to_stand_in(d, &other, end);
+    if (f) {
         start_over(q);
         *spare(&q->s) = f->corner;
         q->s.n = 1;
@@ -308,7 +328,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     d->near = end == OPEN && !g->exact ? smaller(d->q->lower + 2 * d->q->d.doubt, *upper) : *upper;
     if (d->settled) d->q->normal = d->normal;
     if (flat || !d->floor) return end;
-    if (stand_in_dip(d, weight)) return end;
+    if (stand_in_dip(d, weight, &end) || end == FAULT) return end;
     if (end == OPEN) turn_to_normal(d);
     if (d->settled || end == OPEN) hand_over(d, weight);
     else point_out(d, weight);
