@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Polygons of few corners in the plane, against the exact truth: of one to nine corners, in clusters whose edges are a
- * few roundings long, on lines, twice the same, sheared; apart, all but touching and overlapping, with radii. What
- * tells most of them shows in how few steps they take; and no query takes more of these for being allowed more. */
+ * few roundings long, on lines, twice the same, sheared; apart, all but touching and overlapping, with radii; on a
+ * grid, touching, or but for one number's last digit. What tells most of them shows in how few steps they take; and no
+ * query takes more of these for being allowed more. */
 #include "faults.h"
 #include "pairs.h"
 #include "settle.h"
@@ -11,8 +12,9 @@
 #define STEPS_MOST 24
 #define PAIRS 1500 /* of each sort */
 
-enum sort { CIRCLING, CLUSTERS, ON_LINES, SHEARED, NEARLY_TOUCHING, SORTS };
-static const char *const sort_name[SORTS] = {"circling", "clusters", "on lines", "sheared", "nearly touching"};
+enum sort { CIRCLING, CLUSTERS, ON_LINES, SHEARED, NEARLY_TOUCHING, ON_A_GRID, SORTS };
+static const char *const sort_name[SORTS] = {"circling", "clusters",        "on lines",
+                                             "sheared",  "nearly touching", "on a grid"};
 
 static exact best;
 static truth nearly;
@@ -82,6 +84,64 @@ static void bring_near(draws *d)
     bind_pair(&p);
 }
 
+static double placed_on_grid(const body *b, int k, int i)
+{
+    return (double)b->pose.m[DIM * i] * (double)b->v[k][0] + (double)b->pose.m[DIM * i + 1] * (double)b->v[k][1];
+}
+
+static void draw_on_grid(draws *d, body *b, double size)
+{
+    const int turned = below(d, 2);
+    start_body(b, POINTS);
+    b->count = 1 + below(d, 8);
+    for (int k = 0; k < b->count; k++) {
+        for (int i = 0; i < DIM; i++) {
+            b->v[k][i] = (real)(size * (below(d, 17) - 8));
+        }
+    }
+    for (int i = 0; i < DIM * DIM; i++) {
+        b->pose.m[i] = (real)((i == 0 || i == 3) != turned ? (i == 1 ? -1 : 1) : 0);
+    }
+}
+
+/* A number of the pair, of which one is changed in its last digit. */
+static real *any_number(draws *d, body *b)
+{
+    switch (below(d, 3)) {
+    case 0:
+        return &b->pose.m[below(d, DIM * DIM)];
+    case 1:
+        return &b->pose.p[below(d, DIM)];
+    default:
+        return &b->v[below(d, b->count)][below(d, DIM)];
+    }
+}
+
+/* Across a line along an axis, with a corner of each in the same place: all of numbers of few digits, but for one. */
+static void draw_grid_pair(draws *d)
+{
+    const double size = 1.0 / (1 << below(d, 6));
+    const int across = below(d, DIM);
+    int m = 0, n = 0;
+    draw_on_grid(d, &p.a, size);
+    draw_on_grid(d, &p.b, size);
+    for (int k = 0; k < p.a.count; k++) {
+        m = placed_on_grid(&p.a, k, across) > placed_on_grid(&p.a, m, across) ? k : m;
+    }
+    for (int k = 0; k < p.b.count; k++) {
+        n = placed_on_grid(&p.b, k, across) < placed_on_grid(&p.b, n, across) ? k : n;
+    }
+    for (int i = 0; i < DIM; i++) {
+        p.a.pose.p[i] = (real)(size * (below(d, 9) - 4));
+        p.b.pose.p[i] = (real)((double)p.a.pose.p[i] + placed_on_grid(&p.a, m, i) - placed_on_grid(&p.b, n, i));
+    }
+    if (below(d, 2)) {
+        real *x = any_number(d, below(d, 2) ? &p.a : &p.b);
+        *x = (real)((double)*x * (1 + (below(d, 2) ? 2 : -2) * U));
+    }
+    bind_pair(&p);
+}
+
 static void check(const V(result) * r, int signed_too)
 {
     const quad low = signed_too ? nearly.lower : positive(nearly.lower);
@@ -128,7 +188,11 @@ static void polygons(void **state)
             V(result) r;
             draws d = draws_from(21, (uint64_t)k, (uint64_t)at);
             memset(&r, 0, sizeof r);
-            draw_polygons(&d);
+            if (sort == ON_A_GRID) {
+                draw_grid_pair(&d);
+            } else {
+                draw_polygons(&d);
+            }
             if (sort == NEARLY_TOUCHING) {
                 bring_near(&d);
             }

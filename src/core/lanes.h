@@ -160,6 +160,19 @@ static inline fours fours_of(real a, real b, real c, real d)
 #endif
 }
 
+static inline fours join_fours(const real x[4])
+{
+    fours r;
+    EACH_PART(r.part[i] = join_lanes(x + i * LANES));
+    return r;
+}
+
+static inline fours sizes_of(fours x)
+{
+    EACH_PART(x.part[i] = sizes(x.part[i]));
+    return x;
+}
+
 static inline fours sums_of(fours x, fours y)
 {
     EACH_PART(x.part[i] = sums(x.part[i], y.part[i]));
@@ -176,6 +189,14 @@ static inline fours products_of(fours x, fours y)
 {
     EACH_PART(x.part[i] = products(x.part[i], y.part[i]));
     return x;
+}
+
+/* None of them is below 0, or no number: whether all are 0. */
+static inline int are_none(fours x)
+{
+    int r = 1;
+    EACH_PART(r &= any_as_large(in_all(0), x.part[i]) == (1 << LANES) - 1);
+    return r;
 }
 
 static inline void part_fours(fours x, real r[4]) { EACH_PART(part_lanes(x.part[i], r + i * LANES)); }

@@ -537,6 +537,91 @@ static APART int tell_finely(search *q, const scene *k, front own, const shape *
     return spell_in_full(q, t, f->steps, deep, a, b, r);
 }
 
+/* By how much four numbers are off whole multiples of 2^-places of that power of two, and how much that is in all. */
+HOT fours odds_of(fours odds, fours x, int places, real power)
+{
+    const real off = (real)((bits)3 << (MANTISSA - places - 1)) * power;
+    return sums_of(odds, sizes_of(differences_of(upper_of(x, fours_of(off, off, off, off)), x)));
+}
+
+/* The body's numbers there, and its map, are short: their products, and sums of these, are exact. */
+HOT fours odds_of_body(fours odds, const body *k, const cluster *p, const unsigned at[3], real power)
+{
+    const real level = leveler(k->norm * (1 + LENGTH_OFF)), share = level / 2 * power;
+    const real *x = p->own[0], *y = p->own[1];
+    odds = odds_of(odds, join_fours(p->m), SHORT, 2 / level);
+    odds = odds_of(odds, fours_of(x[at[0]], y[at[0]], x[at[1]], y[at[1]]), SHORT, share);
+    return odds_of(odds, fours_of(x[at[2]], y[at[2]], x[at[2]], y[at[2]]), SHORT, share);
+}
+
+/* Nothing was rounded on the way to these corners, nor will be in their determinants: as are_corners_whole has it, in
+ * the caller's own lengths, of which the bodies reach the power of two at most, and all sums twice that. */
+HOT int are_spots_whole(const difference *d, const scene *k, const spot *const at[3], const shape *a, const shape *b)
+{
+    const real power = 2 / leveler(d->doubt / PLANAR_DOUBT);
+    const unsigned of_a[3] = {in_a(at[0]), in_a(at[1]), in_a(at[2])};
+    const unsigned of_b[3] = {in_b(at[0]), in_b(at[1]), in_b(at[2])};
+    const vec p = at[0]->w, q = at[1]->w, r = at[2]->w;
+    fours odds = odds_of_body(fours_of(0, 0, 0, 0), &d->a, &k->a, of_a, power);
+    odds = odds_of_body(odds, &d->b, &k->b, of_b, power);
+    odds = odds_of(odds, fours_of(p.c[0], p.c[1], q.c[0], q.c[1]), SHORTER, power);
+    odds = odds_of(odds, fours_of(r.c[0], r.c[1], r.c[0], r.c[1]), SHORTER, power);
+    return are_none(odds) && is_way_short(d, a, b, power);
+}
+
+/* Weights of the front's corner, its edge, or that and the corner asked for last, with which they add up to the origin;
+ * 0: they do not hold it. */
+HOT int weigh_front(const front *f, const spot *const at[3], real weight[3])
+{
+    const vec p = at[0]->w, q = at[1]->w, r = at[2]->w;
+    weight[0] = 1;
+    weight[1] = weight[2] = 0;
+    if (f->n == 1) return !(peak(p) > 0);
+    const real turn = cross(p, q);
+    if (f->around) {
+        weight[0] = cross(q, r);
+        weight[1] = cross(r, p);
+        weight[2] = turn;
+    } else {
+        const int i = size(q.c[0] - p.c[0]) > size(q.c[1] - p.c[1]) ? 0 : 1;
+        weight[0] = q.c[i];
+        weight[1] = -p.c[i];
+    }
+    const real least = smaller(weight[0], smaller(weight[1], weight[2]));
+    const real most = larger(weight[0], larger(weight[1], weight[2]));
+    return (f->around || turn == 0) && (least < 0) != (most > 0);
+}
+
+/* That the cores meet where the walk has come to, of corners that are short numbers: with nothing rounded. 0: they are
+ * none, or do not, or there is no direction. */
+static APART int tell_touching(search *q, const scene *k, front own, int framed, const shape *a, const shape *b,
+                               const goal *g, result *r)
+{
+    const front *f = &own;
+    const spot *const at[3] = {&f->p, f->n > 1 ? &f->q : &f->p, f->around ? &f->last : &f->p};
+    verdict t = {.v = f->way, .l = length(f->way), .value = 0};
+    real weight[3];
+    if (framed || g->deep || !(f->around || f->ended) || f->steps == 0) return 0;
+    if (!weigh_front(f, at, weight) || !are_spots_whole(&q->d, k, at, a, b)) return 0;
+    q->lower = -REAL_MAX;
+    q->d.slack = 0;
+    raise(q, f->way, f->last.w);
+    if (!(q->lower > -REAL_MAX)) return 0;
+    t.lower = q->lower;
+    t.upper = 0;
+    const real sum = size(weight[0]) + size(weight[1]) + size(weight[2]);
+    vec x = axis(0, 0), y = x;
+    for (int i = 0; i < 3; i++) {
+        const real share = size(weight[i]) / sum;
+        x = add(x, mul(own_of(&k->a, in_a(at[i])), share));
+        y = add(y, mul(own_of(&k->b, in_b(at[i])), share));
+    }
+    t.a = map(k->a.m, x);
+    t.b = map(k->b.m, y);
+    t.way = axis(0, 0);
+    return spell_verdict(q, &t, f, framed, a, b, g, r);
+}
+
 /* How far apart: as the pair is, than which no corner lies lower; or whether, where that is asked. 0: rounding leaves
  * it open, or has chosen an edge that is too short for it. */
 HOT int tell_front(search *q, const scene *k, front *f, int framed, const shape *a, const shape *b, const goal *g,
@@ -545,7 +630,10 @@ HOT int tell_front(search *q, const scene *k, front *f, int framed, const shape 
     const difference *d = &q->d;
     verdict t = {.v = f->way, .l = length(f->way), .value = 0};
     t.lower = dot(f->way, f->last.w) / t.l - d->doubt;
-    if (!(t.lower > EVIDENT * d->doubt) && g->radius == 0) return tell_finely(q, k, *f, a, b, g->deep, r);
+    if (!(t.lower > EVIDENT * d->doubt) && g->radius == 0) {
+        const int on_it = !(dot(f->v, f->p.w) > 0) && tell_touching(q, k, *f, framed, a, b, g, r);
+        return on_it || tell_finely(q, k, *f, a, b, g->deep, r);
+    }
     if (g->deep && !(t.lower > g->radius * d->scale)) return tell_finely(q, k, *f, a, b, 1, r);
     const closest pair = pair_at_front(d, k, f, share_of_edge(f));
     place_verdict(k, &pair, &t);
@@ -684,10 +772,11 @@ HOT int look_at_planar(search *q, cache *own, int framed, const shape *a, const 
     const int recalled = f.n;
     if (!recalled) f.v = mul(d->c, -1);
     const enum halt at = walk_front(d, &k, &f, g);
-    const int told = at == SHOWN      ? tell_apart_at(q, &k, &f, framed, a, b, g, r)
-                     : at == FOREMOST ? tell_front(q, &k, &f, framed, a, b, g, r)
-                     : at == AROUND   ? tell_held(q, &k, &f, framed, a, b, g, r)
-                                      : 0;
+    int told = at == SHOWN      ? tell_apart_at(q, &k, &f, framed, a, b, g, r)
+               : at == FOREMOST ? tell_front(q, &k, &f, framed, a, b, g, r)
+               : at == AROUND   ? tell_held(q, &k, &f, framed, a, b, g, r)
+                                : 0;
+    if (!told) told = tell_touching(q, &k, f, framed, a, b, g, r);
     if (!told) leave_front(q, &k, f, a, b);
     else if (own && !(recalled && is_kept(own, &f))) hand_on_front(own, q, &k, f, a, b);
     return told;
