@@ -22,6 +22,7 @@ static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cm
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_pd(x); }
 static inline lanes largest_in_all(lanes x) { return _mm_max_pd(x, _mm_shuffle_pd(x, x, 1)); }
+static inline lanes least_in_all(lanes x) { return _mm_min_pd(x, _mm_shuffle_pd(x, x, 1)); }
 
 /* A number of each point, step by step. */
 static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
@@ -69,6 +70,11 @@ static inline lanes largest_in_all(lanes x)
 {
     x = _mm_max_ps(x, _mm_shuffle_ps(x, x, 0x4e));
     return _mm_max_ps(x, _mm_shuffle_ps(x, x, 0xb1));
+}
+static inline lanes least_in_all(lanes x)
+{
+    x = _mm_min_ps(x, _mm_shuffle_ps(x, x, 0x4e));
+    return _mm_min_ps(x, _mm_shuffle_ps(x, x, 0xb1));
 }
 
 /* x and y of two points, step apart. */
@@ -128,6 +134,7 @@ static inline int any_as_large(lanes x, lanes y) { return x >= y; }
 static inline void part_lanes(lanes x, real r[LANES]) { r[0] = x; }
 static inline lanes join_lanes(const real x[LANES]) { return x[0]; }
 static inline lanes largest_in_all(lanes x) { return x; }
+static inline lanes least_in_all(lanes x) { return x; }
 static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
 {
     (void)step;

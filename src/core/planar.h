@@ -167,6 +167,19 @@ HOT unsigned highest_placed(const cluster *p, vec v)
     return first_bit(highest);
 }
 
+/* The first of those that are lowest, which are the highest the other way. */
+HOT unsigned lowest_placed(const cluster *p, vec v)
+{
+    lanes heights[PLACES / LANES], least;
+    unsigned lowest = 1u << (PLACES - 1); /* where no height is a number */
+    raise_placed(p, v, heights);
+    least = heights[0];
+    for (int i = LANES; i < PLACES; i += LANES) least = smaller_ones(least, heights[i / LANES]);
+    least = least_in_all(least);
+    for (int i = 0; i < PLACES; i += LANES) lowest |= (unsigned)any_as_large(least, heights[i / LANES]) << i;
+    return first_bit(lowest);
+}
+
 /* ---- the front ---- */
 
 /* A corner of the difference, and where those of the bodies stand that it is made of: b's times PLACES, and a's. */
@@ -202,7 +215,7 @@ HOT void ask_ahead(const difference *d, const scene *k, front *f)
 {
     f->way = f->v;
     f->steps++;
-    f->last = spot_at(d, k, highest_placed(&k->a, mul(f->v, -1)) + PLACES * highest_placed(&k->b, f->v));
+    f->last = spot_at(d, k, lowest_placed(&k->a, f->v) + PLACES * highest_placed(&k->b, f->v));
 }
 
 HOT vec way_in(const cluster *p, unsigned from, unsigned to) { return map(p->m, sub(own_of(p, to), own_of(p, from))); }
