@@ -20,12 +20,16 @@ typedef struct vec {
 #define REST(statement) PART(1, statement)
 #else
 #define REST(statement)                                                                                                \
-    PART(1, statement);                                                                                                \
-    PART(2, statement)
+    do {                                                                                                               \
+        PART(1, statement);                                                                                            \
+        PART(2, statement);                                                                                            \
+    } while (0)
 #endif
 #define EACH(statement)                                                                                                \
-    PART(0, statement);                                                                                                \
-    REST(statement)
+    do {                                                                                                               \
+        PART(0, statement);                                                                                            \
+        REST(statement);                                                                                               \
+    } while (0)
 
 static inline vec load(const real *c)
 {
