@@ -12,6 +12,7 @@
 #include "intersect.h"
 #include "plain.h"
 #include "planar.h"
+#include "solid.h"
 #include "stride.h"
 #include "thin.h"
 #include "widen.h"
@@ -616,6 +617,14 @@ GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, 
     return answer_distance(&q, a, b, given, out);
 }
 
+/* So many are used up already. */
+static const options *take_steps_off(options *own, const options *o, int steps)
+{
+    if (o != own) *own = *o;
+    own->max_steps -= (uint32_t)steps;
+    return own;
+}
+
 static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
@@ -627,8 +636,13 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
 #if DIM == 3
     if (q->glanced == IN_VAIN) q->glanced = stride_and_remember(q, a, b, o, out);
 #endif
+    int spent[2] = {0, 0}; /* steps and calls, on solids that are left to the search */
+#if DIM == 3
+    if (!q->listed && o->slack == 0 && look_at_solids(q, (int)steps_of(o), a, b, out, spent)) q->glanced = TELLING;
+#endif
     if (q->glanced == TELLING) return out->status = GJK_DECIDED;
     o = keep_options(&own, o, given);
+    if (spent[0] > 0) o = take_steps_off(&own, o, spent[0]);
     real radius = a->radius + b->radius;
     goal g = {.beyond = radius * (1 + 16 * UNIT),
               .within = radius * (1 - 16 * UNIT),
@@ -639,9 +653,14 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
               .exact = are_exact(q, a, b, o),
               .max_steps = (int)o->max_steps};
 
-    enum end end;
-    int bad = reply_to(q, a, b, o, &g, &end, &r);
-    if (bad) return bad;
+    enum end end = STILL;
+    q->d.calls = 0;
+    if (!(HAS_SISTER && spent[1] > 0 && ask_sister_alone(q, a, b, o, &g, &r))) {
+        int bad = reply_to(q, a, b, o, &g, &end, &r);
+        if (bad) return bad;
+    }
+    r.steps += spent[0];
+    r.supports += spent[1];
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;
