@@ -654,13 +654,14 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
               .max_steps = (int)o->max_steps};
 
     enum end end = STILL;
-    q->d.calls = 0;
     if (!(HAS_SISTER && spent[1] > 0 && ask_sister_alone(q, a, b, o, &g, &r))) {
         int bad = reply_to(q, a, b, o, &g, &end, &r);
         if (bad) return bad;
     }
-    r.steps += spent[0];
-    r.supports += spent[1];
+    if (spent[1] > 0) {
+        r.steps += spent[0];
+        r.supports += spent[1];
+    }
     r.value = r.lower > 0 ? r.lower : r.upper < 0 ? r.upper : 0;
     r.status = r.lower > 0 || r.upper <= 0 ? GJK_DECIDED : end == OPEN ? GJK_LIMIT : GJK_FLOOR;
     *out = r;

@@ -555,6 +555,7 @@ static APART int look_at_solids(search *q, int max_steps, const shape *a, const 
     if (!take_solid(&k.a, a) || !take_solid(&k.b, b) || (k.a.kind == IS_BOX && k.b.kind == IS_BOX)) return 0;
     if (!(a->radius == 0 && b->radius == 0)) return 0;
     k.c = offset(a->pose, b->pose);
+    q->d.calls = 0;
     enum glanced seen = tell_couplet(&k, q, max_steps);
     if (seen == TELLING) spell_couplet(&k, a, b, r);
     if (seen == UNCLEAR) seen = tell_in_plain_lengths(&k, q, max_steps, a, b, r);
