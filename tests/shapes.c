@@ -262,6 +262,27 @@ static void ellipsoid_along_nothing(void **state)
     }
 }
 
+/* Cores that are apart, and radii that reach across. */
+static void rounded_ellipsoids(void **state)
+{
+    V(ellipsoid) e;
+    V(pose) beside;
+    V(result) r;
+    (void)state;
+    memset(&beside, 0, sizeof beside);
+    for (int i = 0; i < DIM; i++) {
+        e.radii[i] = 1;
+        beside.m[i * (DIM + 1)] = 1;
+    }
+    beside.p[0] = (real)2.5;
+    {
+        const V(shape) a = {V(support_ellipsoid), &e, NULL, (real)0.5},
+                       b = {V(support_ellipsoid), &e, &beside, (real)0.5};
+        assert_int_equal(V(intersect)(&a, &b, NULL, &r), GJK_DECIDED);
+        assert_true(r.upper < 0);
+    }
+}
+
 /* The ball of radius 1 under a pose that stretches, as an ellipsoid: the columns of the pose brought to size 1 by
  * powers of two, the radii those powers. The same set to the bit. */
 static void to_ellipsoid(body *b)
@@ -446,6 +467,7 @@ int main(void)
         cmocka_unit_test(thin_ellipsoids),
         cmocka_unit_test(ellipsoid_along_nothing),
         cmocka_unit_test(ellipsoids_as_balls),
+        cmocka_unit_test(rounded_ellipsoids),
         cmocka_unit_test(origin),
 #if DIM == 3
         cmocka_unit_test(triangle),
