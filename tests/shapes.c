@@ -283,6 +283,60 @@ static void rounded_ellipsoids(void **state)
     }
 }
 
+#if DIM == 3
+/* A thin ellipsoid aslant along two of the axes, which passes by the first set at a distance of more than 1, while the
+ * way between the middles meets both. */
+static void assert_passed_by(V(support_fn) * f, const void *data, int u, int v, real along_u, real along_v)
+{
+    const V(ellipsoid) thin = {{10, (real)0.0625, (real)0.0625}};
+    for (int turn = -1; turn <= 1; turn += 2) {
+        V(pose) pose;
+        V(result) r;
+        memset(&pose, 0, sizeof pose);
+        pose.m[DIM * u] = pose.m[DIM * v + 1] = (real)0.6;
+        pose.m[DIM * v] = (real)0.8 * (real)turn;
+        pose.m[DIM * u + 1] = (real)-0.8 * (real)turn;
+        pose.m[DIM * (DIM - u - v) + 2] = 1;
+        pose.p[u] = along_u;
+        pose.p[v] = along_v;
+        {
+            const V(shape) a = {f, data, NULL, 0}, b = {V(support_ellipsoid), &thin, &pose, 0};
+            assert_int_equal(V(intersect)(&a, &b, NULL, &r), GJK_DECIDED);
+            assert_true(r.lower > 0);
+            assert_int_equal(V(intersect)(&b, &a, NULL, &r), GJK_DECIDED);
+            assert_true(r.lower > 0);
+        }
+    }
+}
+
+/* A flat box in whose plane the way between the middles lies. */
+static void flat_boxes(void **state)
+{
+    (void)state;
+    for (int flat = 0; flat < DIM; flat++) {
+        V(box) b = {{1, 1, 1}};
+        const int u = (flat + 1) % DIM, v = (flat + 2) % DIM;
+        b.half[flat] = 0;
+        assert_passed_by(V(support_box), &b, u, v, 5, (real)0.25);
+        assert_passed_by(V(support_box), &b, v, u, 5, (real)0.25);
+    }
+}
+
+/* -0 is a size like 0. */
+static void negative_zeros(void **state)
+{
+    const V(cone) needle = {(real)-0.0, 1};
+    (void)state;
+    assert_passed_by(V(support_cone), &needle, 0, 2, 5, (real)-0.25);
+    for (int flat = 0; flat < DIM; flat++) {
+        V(box) b = {{1, 1, 1}};
+        b.half[flat] = (real)-0.0;
+        assert_passed_by(V(support_box), &b, flat, (flat + 1) % DIM, 5, (real)0.25);
+        assert_passed_by(V(support_box), &b, flat, (flat + 2) % DIM, 5, (real)0.25);
+    }
+}
+#endif
+
 /* The ball of radius 1 under a pose that stretches, as an ellipsoid: the columns of the pose brought to size 1 by
  * powers of two, the radii those powers. The same set to the bit. */
 static void to_ellipsoid(body *b)
@@ -474,6 +528,8 @@ int main(void)
         cmocka_unit_test(cylinder),
         cmocka_unit_test(cone),
         cmocka_unit_test(disc),
+        cmocka_unit_test(flat_boxes),
+        cmocka_unit_test(negative_zeros),
 #endif
         cmocka_unit_test(couples),
         cmocka_unit_test(nested_couples),

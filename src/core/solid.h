@@ -21,13 +21,14 @@ typedef struct solid {
     const real *m; /* the map of its pose, if there is one */
 } solid;
 
-/* The numbers of the shape's data, so many, each given an index, into the size. 0: one is none. */
+/* The numbers of the shape's data, so many, each given an index, into the size; -0 as 0, since there is divided by
+ * them. 0: one is none. */
 static inline int take_sizes(solid *k, const shape *s, enum kind kind, int i, int j, int l)
 {
     const real *from = s->data;
     if (!from) return 0;
     k->kind = kind;
-    k->size = (vec){{from[i], from[j], l < 0 ? 0 : from[l]}};
+    k->size = (vec){{from[i] + 0, from[j] + 0, l < 0 ? 0 : from[l] + 0}};
     k->m = s->pose ? s->pose->m : NULL;
     return k->size.c[0] >= 0 && k->size.c[1] >= 0 && k->size.c[2] >= 0;
 }
@@ -161,13 +162,15 @@ HOT void keep_apart(couplet *k, const evidence *e, vec v, real unscale)
 
 /* ---- a point of both ---- */
 
-/* How many times as large the solid is that x is on the surface of. */
+/* How many times as large the solid is that x is on the surface of. Where a box is flat and x in its plane, 0 / 0 is
+ * passed over, and nothing else with it. */
 static inline real gauge_of(const solid *k, vec x)
 {
     const vec s = k->size;
     if (k->kind == IS_BOX) {
-        EACH(x.c[i] = size(x.c[i]) / s.c[i]);
-        return larger(larger(x.c[0], x.c[1]), x.c[2]);
+        real times = 0;
+        EACH(times = larger(size(x.c[i]) / s.c[i], times));
+        return times;
     }
     if (k->kind == IS_ELLIPSOID) {
         EACH(x.c[i] /= s.c[i]);
