@@ -335,6 +335,25 @@ static void negative_zeros(void **state)
         assert_passed_by(V(support_box), &b, flat, (flat + 2) % DIM, 5, (real)0.25);
     }
 }
+
+/* A ball that its pose makes larger than all numbers: there is no bound on how deep the other is in it. */
+static void beyond_numbers(void **state)
+{
+    const real far = sizeof(real) == sizeof(double) ? (real)0x1p60 * (real)0x1p40 : (real)0x1p70;
+    const int times = sizeof(real) == sizeof(double) ? 6 : 1;
+    V(ball) large = {1};
+    V(pose) pose;
+    V(result) r;
+    const V(cylinder) small = {1, 1};
+    (void)state;
+    memset(&pose, 0, sizeof pose);
+    for (int i = 0; i < times; i++) large.radius *= far;
+    for (int i = 0; i < DIM; i++) pose.m[i * (DIM + 1)] = large.radius;
+    {
+        const V(shape) a = {V(support_cylinder), &small, NULL, 0}, b = {V(support_ball), &large, &pose, 0};
+        assert_int_equal(V(intersect)(&a, &b, NULL, &r), GJK_BAD_SUPPORT);
+    }
+}
 #endif
 
 /* The ball of radius 1 under a pose that stretches, as an ellipsoid: the columns of the pose brought to size 1 by
@@ -530,6 +549,7 @@ int main(void)
         cmocka_unit_test(disc),
         cmocka_unit_test(flat_boxes),
         cmocka_unit_test(negative_zeros),
+        cmocka_unit_test(beyond_numbers),
 #endif
         cmocka_unit_test(couples),
         cmocka_unit_test(nested_couples),

@@ -543,7 +543,8 @@ static APART enum glanced tell_in_plain_lengths(couplet *k, search *q, int max_s
     if (seen != TELLING) return seen;
     k->lower = raised(k->lower, e);
     k->upper = raised(k->upper, e);
-    if (!(size(k->lower) >= REAL_MIN && size(k->upper) >= REAL_MIN && size(k->upper) <= REAL_MAX)) return IN_VAIN;
+    const real least = smaller(size(k->lower), size(k->upper)), most = larger(size(k->lower), size(k->upper));
+    if (!(least >= REAL_MIN && most <= REAL_MAX)) return IN_VAIN;
     spell_couplet(k, a, b, r);
     const vec on_a = placed_from(k->on_a, e, a), on_b = k->lower > 0 ? placed_from(k->on_b, e, b) : on_a;
     store(r->point_a, on_a);

@@ -182,14 +182,14 @@ static APART enum end ask_sister(search *q, const shape *a, const shape *b, cons
 }
 
 /* The same of whether boxes meet, or what a formula tells, where so near to contact float can't: what she sees at a
- * glance costs less than a walk. All of the answer is hers. 0: she has none; only r is changed. */
+ * glance costs less than a walk. All of the answer is hers. 0: she has none that float can spell; only r is changed. */
 static APART int ask_sister_alone(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     const int steps = q->steps, calls = q->d.calls;
     q->steps = q->d.calls = 0;
     r->lower = -REAL_MAX;
     r->upper = REAL_MAX;
-    if (ask_sister(q, a, b, o, g, r) == STILL) {
+    if (ask_sister(q, a, b, o, g, r) == STILL && r->lower > -REAL_MAX && r->upper < REAL_MAX) {
         r->steps = q->steps;
         r->supports = q->d.calls;
         r->reserved = 0;
