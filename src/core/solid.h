@@ -515,12 +515,17 @@ static int exponent_of_solid(const solid *k, int *e)
     return 1;
 }
 
-/* What is so far from the shape's position, times 2^e, in the world: summed where neither underflows that counts. */
+/* x times 2^e beside a coordinate p, summed where neither underflows that counts. */
+static real placed_beside(real x, int e, real p)
+{
+    const int out = size(p) >= REAL_MIN && exponent_of(size(p)) > e ? exponent_of(size(p)) : e;
+    return raised(raised(x, e - out) + raised(p, -out), out);
+}
+
+/* What is so far from the shape's position, times 2^e, in the world. */
 static vec placed_from(vec x, int e, const shape *s)
 {
-    const real far = far_out(s);
-    const int out = far >= REAL_MIN && exponent_of(far) > e ? exponent_of(far) : e;
-    EACH(x.c[i] = raised(x.c[i], e - out) + (s->pose ? raised(s->pose->p[i], -out) : 0); x.c[i] = raised(x.c[i], out));
+    EACH(x.c[i] = placed_beside(x.c[i], e, s->pose ? s->pose->p[i] : 0));
     return in_range(x);
 }
 
