@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x7e9628e0ea4fbe32, 0x857aa64575e60cda, 0x16b15a8076299b45};
+static const uint64_t known[3] = {0x7e9628e0ea4fbe32, 0x2da9729fc098f1df, 0x16b15a8076299b45};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xfe0df447db9e91b1, 0x0605c304e879ffd0, 0xc16170208596be84};
+static const uint64_t known[3] = {0x99ecec1b2c02e3aa, 0x5a15557d2ed9b1f2, 0x91cf8ec5fffd7d47};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x1c07de63729d03fd, 0x8282f36a3da0699e, 0x05db8c75f2e736f7};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x07149866e24379e0, 0xd3d29fe567945c23, 0x55539bf7a630f8f5};
+static const uint64_t known[3] = {0x7e0043665e4565d3, 0xd1b158182340fa68, 0x9d1a86e4e78a8844};
 #endif
 #if VARIANT_FLOAT
 typedef float real;
