@@ -12,26 +12,45 @@
 /* The boxes as they see each other, in lengths along their axes. Where a box's axes are not square to each other it is
  * no more than a guess. */
 typedef struct gauge {
-    vec u[AXES]; /* the axes, a's first, of length 1 */
-    vec uu[2];   /* their squares, by box, */
-    real off;    /* all off 1 by no more */
-    vec e, f;    /* the halves of a and of b */
-    vec unit[2]; /* 1 along an axis, in a box's own coordinates times their grain */
-    vec t, s;    /* the way from a's middle to b's: along a's axes, and along b's */
-    vec r[DIM];  /* r[i].c[j]: a's axis i along b's axis j */
-    int brought; /* the axes were not of length 1: unit is no power of two then */
-    int framed;  /* in the frame; else in the caller's lengths, of turned boxes only */
+    vec u[AXES];      /* in the frame: the axes, a's first, of length 1; */
+    const real *m[2]; /* else they are the columns of these maps */
+    vec uu[2];        /* their squares, by box, */
+    real off;         /* all off 1 by no more */
+    vec e, f;         /* the halves of a and of b */
+    vec unit[2];      /* 1 along an axis, in a box's own coordinates times their grain */
+    vec t, s;         /* the way from a's middle to b's: along a's axes, and along b's */
+    vec r[DIM];       /* r[i].c[j]: a's axis i along b's axis j */
+    int brought;      /* the axes were not of length 1: unit is no power of two then */
+    int framed;       /* in the frame; else in the caller's lengths, of turned boxes only */
 } gauge;
+
+/* The map of a body that is not turned. */
+#if DIM == 2
+static const real unturned[DIM * DIM] = {1, 0, 0, 1};
+#else
+static const real unturned[DIM * DIM] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+#endif
+
+static inline vec axis_of(const gauge *k, int at)
+{
+    vec u;
+    if (k->framed) return k->u[at];
+    const real *m = k->m[at / DIM] + at % DIM;
+    EACH(u.c[i] = m[DIM * i]);
+    return u;
+}
 
 /* Bounds what a ball loses where axes are not of length 1 and square to each other, as a share: the squares of the axes
  * are off 1 by that, or their products off 0. */
-static inline real skew_of(const gauge *k, int at)
+static inline real skew_among(const vec u[DIM], real off)
 {
-    const vec *u = k->u + DIM * at;
     real skew = size(dot(u[0], u[1]));
     if (DIM > 2) skew += size(dot(u[0], u[DIM - 1])) + size(dot(u[1], u[DIM - 1]));
-    return skew + (k->off + 64 * UNIT);
+    return skew + (off + 64 * UNIT);
 }
+
+/* The same of a box in the frame. */
+static inline real skew_of(const gauge *k, int at) { return skew_among(k->u + DIM * at, k->off); }
 
 /* 0: an axis is too long or too short to have been turned alone. */
 static inline int take_off(gauge *k)
@@ -71,6 +90,7 @@ static APART int take_gauge_in_frame(gauge *k, const difference *d)
     take_axes(&z, 0, &d->a, level_of_axes(&d->a));
     take_axes(&z, 1, &d->b, level_of_axes(&d->b));
     k->framed = 1;
+    k->m[0] = k->m[1] = unturned; /* nobody asks */
     k->brought = 0;
     for (int i = 0; i < AXES; i++) k->u[i] = z.u[i];
     EACH(k->uu[0].c[i] = z.uu[i]; k->uu[1].c[i] = z.uu[DIM + i]; k->e.c[i] = z.e[i]; k->f.c[i] = z.e[DIM + i];
@@ -80,21 +100,15 @@ static APART int take_gauge_in_frame(gauge *k, const difference *d)
     return 1;
 }
 
-/* The same of boxes that see the way between them as t and s, and whose squared axes are known. */
-static inline int take_gauge(gauge *k, const difference *d, vec t, vec s, const vec uu[2])
+/* The same of boxes that see the way between them as t and s, and whose squared axes are known: all in it. */
+static inline int take_gauge(gauge *k, const difference *d)
 {
     k->framed = k->brought = 0;
-    EACH(for (int j = 0; j < DIM; j++) {
-        k->u[i].c[j] = d->a.posed ? d->a.m[DIM * j + i] : i == j;
-        k->u[DIM + i].c[j] = d->b.posed ? d->b.m[DIM * j + i] : i == j;
-    });
-    k->uu[0] = uu[0];
-    k->uu[1] = uu[1];
+    k->m[0] = d->a.posed ? d->a.m : unturned;
+    k->m[1] = d->b.posed ? d->b.m : unturned;
     k->e = load(((const box *)d->a.data)->half);
     k->f = load(((const box *)d->b.data)->half);
     EACH(k->unit[0].c[i] = k->unit[1].c[i] = 1);
-    k->t = t;
-    k->s = s;
     return take_off(k);
 }
 
@@ -192,7 +206,9 @@ static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, 
     const difference *d = &q->d;
     EACH(x.c[i] *= k->unit[0].c[i]; y.c[i] *= k->unit[1].c[i]);
     const vec w = corner_at(d, x, y);
-    const real deep = room > 0 ? room * (1 - skew_of(k, in_b)) - spread(w) - d->doubt : 0;
+    vec u[DIM];
+    EACH(u[i] = axis_of(k, DIM * in_b + i));
+    const real deep = room > 0 ? room * (1 - skew_among(u, k->off)) - spread(w) - d->doubt : 0;
     const int one = !(deep > 0) && same(w, axis(0, 0)) && is_one_point(q, k->framed, x, y, a, b);
     if ((!(deep > 0) && !one) || (!q->pending && !know_first(q, k))) return 0;
     raise(q, q->v, spare(&q->s)->w);
@@ -233,7 +249,7 @@ static inline real reach_along_a(gauge *k, int i)
 {
     real h = k->e.c[i] - size(k->t.c[i]);
     for (int j = 0; j < DIM; j++) {
-        k->r[i].c[j] = dot(k->u[i], k->u[DIM + j]);
+        k->r[i].c[j] = dot(axis_of(k, i), axis_of(k, DIM + j));
         h += k->f.c[j] * size(k->r[i].c[j]);
     }
     return h;
@@ -272,20 +288,32 @@ static inline vec foremost_of_a(const gauge *k, int at)
 }
 
 #if DIM == 3
-/* The same along the normal of each pair of axes, one of each box, times its length, whose square is ll. */
-static inline void reach_across(const gauge *k, real h[9], real ll[9])
+/* The same along the normal of each pair of that axis of a and one of b, times its length; */
+static inline void reach_across(const gauge *k, int i, real h[3])
 {
     const vec e = k->e, f = k->f, *r = k->r;
-    for (int i = 0; i < 3; i++) {
-        const int i1 = next_axis[i + 1], i2 = next_axis[i + 2];
-        for (int j = 0; j < 3; j++) {
-            const int j1 = next_axis[j + 1], j2 = next_axis[j + 2];
-            const real way = k->t.c[i2] * r[i1].c[j] - k->t.c[i1] * r[i2].c[j];
-            h[3 * i + j] = (e.c[i1] * size(r[i2].c[j]) + e.c[i2] * size(r[i1].c[j])) +
-                           (f.c[j1] * size(r[i].c[j2]) + f.c[j2] * size(r[i].c[j1])) - size(way);
-            ll[3 * i + j] = 1 - r[i].c[j] * r[i].c[j];
-        }
+    const int i1 = next_axis[i + 1], i2 = next_axis[i + 2];
+    for (int j = 0; j < 3; j++) {
+        const int j1 = next_axis[j + 1], j2 = next_axis[j + 2];
+        const real way = k->t.c[i2] * r[i1].c[j] - k->t.c[i1] * r[i2].c[j];
+        h[j] = (e.c[i1] * size(r[i2].c[j]) + e.c[i2] * size(r[i1].c[j])) +
+               (f.c[j1] * size(r[i].c[j2]) + f.c[j2] * size(r[i].c[j1])) - size(way);
     }
+}
+
+/* the square of which this is. */
+static inline real square_across(const gauge *k, int i, int j) { return 1 - k->r[i].c[j] * k->r[i].c[j]; }
+
+/* The first pair of axes along whose normal they reach into each other by less than that; -1: there is none. What all
+ * before it do is left in h. */
+static inline int first_gap_across(const gauge *k, real apart, real h[9])
+{
+    for (int i = 0; i < 3; i++) {
+        reach_across(k, i, h + 3 * i);
+        for (int j = 0; j < 3; j++)
+            if (h[3 * i + j] < apart) return 3 * i + j;
+    }
+    return -1;
 }
 
 /* The point of a's edge nearest to b's, where these two are what is foremost across the pair of axes. */
@@ -307,20 +335,31 @@ static inline vec nearest_on_edge_of_a(const gauge *k, int of_a, int of_b)
 
 /* ---- telling ---- */
 
+/* The boxes' corners farthest along v toward each other. */
+HOT int seek_corners(difference *d, vec v, vertex *p)
+{
+    if (d->wild) return ask(d, v, p);
+    d->calls += 2;
+    p->x = corner_of_box(d->a.data, plain_direction(&d->a, mul(v, -1)));
+    p->y = corner_of_box(d->b.data, plain_direction(&d->b, v));
+    return 1;
+}
+
 /* The corner along l, which seems to lead from one box to the other, may prove them to be apart. If not, the walk
  * starts from there. */
 HOT int try_along(search *q, vec l, int max_steps, const shape *a, const shape *b, result *r)
 {
     vertex p;
-    if (max_steps < 2 || !(peak(l) > 0) || !seek_both(&q->d, l, &p)) return 0;
-    q->steps++;
-    q->v = l;
-    q->glanced = AIMED;
+    if (max_steps < 2 || !(peak(l) > 0) || !seek_corners(&q->d, l, &p)) return 0;
     evidence e = corner_shown(&q->d, l, &p);
     p.w = e.w;
+    q->steps++;
+    if (tell_evidence(q, &e, l, &p, a, b, r)) return 1;
+    q->v = l;
+    q->glanced = AIMED;
     q->s.slot[0] = p; /* the spare one */
     q->pending = 1;
-    return tell_evidence(q, &e, l, &p, a, b, r);
+    return 0;
 }
 
 /* Reaching into each other by less, they may be apart. Nearer contact heights in plain numbers are no guide. */
@@ -341,18 +380,18 @@ static APART int tell_inside(search *q, const gauge *k, const real h[AXES], vec 
     *way = axis(0, 0);
     if (try_of_a(q, k, x, a, b, r) || try_of_b(q, k, y, a, b, r)) return 1;
 #if DIM == 3
-    real across[9], ll[9], lowest = height * height;
+    real across[9], lowest = height * height;
+    const int gap = first_gap_across(k, apart_by(q, a, b), across);
     int edges = -1;
-    reach_across(k, across, ll);
-    const int gap = least_of(across, 9);
-    if (across[gap] < apart_by(q, a, b)) {
-        *way = cross(k->u[gap / 3], k->u[DIM + gap % 3]);
+    if (gap >= 0) {
+        *way = cross(axis_of(k, gap / 3), axis_of(k, DIM + gap % 3));
         *way = mul(*way, -signed_as(1, dot(*way, q->d.c)));
         return 0;
     }
     for (int i = 0; i < 9; i++) {
-        if (!(across[i] * across[i] < lowest * ll[i]) || !(ll[i] > PARALLEL)) continue;
-        lowest = across[i] * across[i] / ll[i];
+        const real ll = square_across(k, i / 3, i % 3);
+        if (!(across[i] * across[i] < lowest * ll) || !(ll > PARALLEL)) continue;
+        lowest = across[i] * across[i] / ll;
         edges = i;
     }
     if (edges >= 0 && height > q->d.doubt)
@@ -374,19 +413,18 @@ HOT int tell_by_axes(search *q, gauge *k, int max_steps, const shape *a, const s
         if ((h[at] = reach_along_a(k, at)) < apart) break;
     for (; at >= DIM && at < AXES; at++)
         if ((h[at] = reach_along_b(k, at - DIM)) < apart) break;
-    if (at < AXES) way = mul(k->u[at], -signed_as(1, at < DIM ? k->t.c[at] : k->s.c[at - DIM]));
+    if (at < AXES) way = mul(axis_of(k, at), -signed_as(1, at < DIM ? k->t.c[at] : k->s.c[at - DIM]));
     else if (tell_inside(q, k, h, &way, a, b, r)) return 1;
     return try_along(q, way, max_steps, a, b, r);
 }
 
 /* The same without a frame. If not, what was asked last is left in the first slot. */
-static APART enum glanced glance_along_axes(search *q, vec t, vec s, const vec uu[2], int max_steps, const shape *a,
-                                            const shape *b, result *r)
+static APART enum glanced glance_along_axes(search *q, gauge *k, int max_steps, const shape *a, const shape *b,
+                                            result *r)
 {
-    gauge k;
     q->glanced = IN_VAIN;
-    if (take_gauge(&k, &q->d, t, s, uu) && tell_by_axes(q, &k, max_steps, a, b, r)) return TELLING;
-    if (!q->pending) know_first(q, &k);
+    if (take_gauge(k, &q->d) && tell_by_axes(q, k, max_steps, a, b, r)) return TELLING;
+    if (!q->pending) know_first(q, k);
     return q->glanced;
 }
 
@@ -403,12 +441,15 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
     const vec v = mul(d->c, -1), t = plain_direction(&d->a, d->c), s = plain_direction(&d->b, v);
     const box *of_a = d->a.data, *of_b = d->b.data;
     const real cc = dot(v, v);
-    vec uu[2];
+    gauge k;
     vertex *p = &q->s.slot[0];
     start_glance(q, v);
-    if (!are_plain(cc, a, b) || !doubt_by_squares(d, cc, uu)) return UNCLEAR;
-    if (!(first_height(load(of_a->half), load(of_b->half), t, s, cc) > 0))
-        return glance_along_axes(q, t, mul(s, -1), uu, max_steps, a, b, r);
+    if (!are_plain(cc, a, b) || !doubt_by_squares(d, cc, k.uu)) return UNCLEAR;
+    if (!(first_height(load(of_a->half), load(of_b->half), t, s, cc) > 0)) {
+        k.t = t;
+        k.s = mul(s, -1);
+        return glance_along_axes(q, &k, max_steps, a, b, r);
+    }
     p->x = corner_of_box(of_a, t);
     p->y = corner_of_box(of_b, s);
     evidence e = corner_shown(d, v, p);

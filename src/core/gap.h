@@ -68,13 +68,13 @@ static inline void start_at_face(const gauge *k, int at, vec *x, vec *y)
 /* The same from the edges across which there is the widest gap. 0: there is none that wide. */
 static int start_at_edges(const gauge *k, real least, vec *x, vec *y)
 {
-    real across[9], ll[9], widest = least * least;
+    real across[9], widest = least * least;
     int at = -1;
-    reach_across(k, across, ll);
+    for (int i = 0; i < 3; i++) reach_across(k, i, across + 3 * i);
     for (int i = 0; i < 9; i++) {
-        const real gap = larger(-across[i], 0);
-        if (!(gap * gap > widest * ll[i]) || !(ll[i] > PARALLEL)) continue;
-        widest = gap * gap / ll[i];
+        const real gap = larger(-across[i], 0), ll = square_across(k, i / 3, i % 3);
+        if (!(gap * gap > widest * ll) || !(ll > PARALLEL)) continue;
+        widest = gap * gap / ll;
         at = i;
     }
     if (at < 0) return 0;

@@ -198,12 +198,4 @@ static int glance_in_frame(search *q, const shape *a, const shape *b, result *r)
     return tell_evidence(q, &e, q->v, p, a, b, r);
 }
 
-/* The bodies' points farthest along v toward each other. */
-static inline int seek_both(difference *d, vec v, vertex *p)
-{
-    if (d->wild) return ask(d, v, p);
-    d->calls += 2;
-    return farthest_plain(&d->a, mul(v, -1), CAREFUL, &p->x) && farthest_plain(&d->b, v, CAREFUL, &p->y);
-}
-
 #endif
