@@ -67,9 +67,8 @@ static inline real extent(const body *k) { return k->size == 0 ? 0 : k->in ? k->
 /* Within the reach, and with that finite; the reach not known, just finite. */
 static inline int fits(const body *k, vec x)
 {
-    int r = 1;
-    EACH(r &= size(x.c[i]) <= k->limit);
-    return r;
+    EACH(if (!(size(x.c[i]) <= k->limit)) return 0);
+    return 1;
 }
 
 static inline void know_reach(body *k, real reach)
