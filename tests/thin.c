@@ -17,9 +17,23 @@
 
 #define PAIRS 600 /* of each sort */
 
-enum sort { SKEW, NEARLY_PARALLEL, PARALLEL_TO, ACROSS, POINTED, UNEVEN, BESIDE, WITHIN, ON_SIDE, SHEARED, SORTS };
-static const char *const sort_name[SORTS] = {"capsules", "nearly parallel", "parallel", "across",    "balls",
-                                             "uneven",   "ball by a box",   "in a box", "on a side", "sheared"};
+enum sort {
+    SKEW,
+    NEARLY_PARALLEL,
+    PARALLEL_TO,
+    ACROSS,
+    POINTED,
+    UNEVEN,
+    BESIDE,
+    WITHIN,
+    AMID,
+    ON_SIDE,
+    SHEARED,
+    SORTS
+};
+static const char *const sort_name[SORTS] = {"capsules",   "nearly parallel", "parallel",      "across",
+                                             "balls",      "uneven",          "ball by a box", "in a box",
+                                             "amid a box", "on a side",       "sheared"};
 
 static exact best;
 static truth nearly;
@@ -101,6 +115,9 @@ static void draw_cores(draws *d)
     if (box) {
         draw_halves(d, &p.a);
         draw_point(d, &p.b);
+        if (sort == AMID) {
+            p.a.half[below(d, DIM)] *= (real)0.02;
+        }
     } else {
         draw_segment(d, &p.a, sort == UNEVEN ? magnitude(d, -6, 4) : between(d, 0.2, 2));
         draw_segment(d, &p.b, sort == UNEVEN ? magnitude(d, -6, 4) : between(d, 0.2, 2));
@@ -155,7 +172,10 @@ static void place_b(draws *d)
         x[below(d, DIM)] =
             (below(d, 2) ? 1 : -1) * (double)p.a.half[0] * (1 + magnitude(d, -17, 0) * between(d, -1, 1));
     }
-    if (sort == BESIDE || sort == WITHIN || sort == ON_SIDE) {
+    for (int i = 0; i < DIM && sort == AMID; i++) {
+        x[i] = (double)p.a.half[i] * (below(d, 2) ? 0 : magnitude(d, -17, 0)) * between(d, -1, 1);
+    }
+    if (sort == BESIDE || sort == WITHIN || sort == AMID || sort == ON_SIDE) {
         put(x);
     }
     if (sort == ACROSS) {
@@ -166,11 +186,24 @@ static void place_b(draws *d)
     }
 }
 
+/* Both elsewhere, so that the offset between them takes more than one number. */
+static void move_both(draws *d)
+{
+    for (int i = 0; i < DIM; i++) {
+        double by = between(d, -4, 4);
+        p.a.pose.p[i] = (real)by;
+        p.b.pose.p[i] = (real)((double)p.b.pose.p[i] + by);
+    }
+}
+
 static void draw_thin(draws *d)
 {
     double by = below(d, 8) ? 1 : power_of_ten(below(d, 21) - 10);
     draw_cores(d);
     place_b(d);
+    if (below(d, 2)) {
+        move_both(d);
+    }
     if (below(d, 2)) {
         body b = p.a;
         p.a = p.b;
@@ -183,7 +216,7 @@ static void draw_thin(draws *d)
     bind_pair(&p);
     for (int k = 0; k < 2; k++) {
         body *b = k ? &p.b : &p.a;
-        b->shape.radius = below(d, 4) == 0 ? 0 : (real)(by * between(d, 0, 1));
+        b->shape.radius = below(d, sort == AMID ? 2 : 4) == 0 ? 0 : (real)(by * between(d, 0, 1));
         if (below(d, 16) == 0) {
             b->shape.radius = (real)(by * magnitude(d, -16, 2));
         }

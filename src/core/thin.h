@@ -208,16 +208,18 @@ static real skew_of_box(vista *k)
 }
 
 /* How far from the box's sides the point is for certain, if it is in it; 0: it is not known to be. From the side that
- * it is nearest to it is out, if that is told; 0, if another may be as near, or the axes are too skew for that. */
+ * it is nearest to it is out, if that is told; 0, if another may be as near, the one across among them, or the axes are
+ * too skew for that. */
 static real sure_room(vista *k, int told, real out, real doubt)
 {
     const real skew = skew_of_box(k), off = spread(sub(mapped(k->box, k->x), k->at)) + doubt;
     real least = REAL_MAX;
     for (int i = 0; i < DIM; i++) {
-        const real room = (k->half.c[i] - size(k->x.c[i])) / k->level * (1 - skew) - off;
-        if (told && i == k->out) continue;
+        const int across = told && i == k->out; /* the other side is farther, as the middle is off */
+        const real far = across ? size(k->x.c[i]) : k->half.c[i] - size(k->x.c[i]);
+        const real room = far / k->level * (1 - skew) - off;
         if (!(room > 0)) return 0;
-        least = smaller(room, least);
+        if (!across) least = smaller(room, least);
     }
     if (!told) return least;
     return skew < 256 * UNIT && out < least ? out : 0;
