@@ -23,7 +23,7 @@ static const uint64_t known[3] = {0x99ecec1b2c02e3aa, 0x5a15557d2ed9b1f2, 0x91cf
 static const uint64_t known[3] = {0x1c07de63729d03fd, 0x8282f36a3da0699e, 0x05db8c75f2e736f7};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x7e0043665e4565d3, 0xd1b158182340fa68, 0x9d1a86e4e78a8844};
+static const uint64_t known[3] = {0x2e64e1c1ec6cabab, 0x7e0fb07a3a00d0f3, 0x2ef138d1d9c96980};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

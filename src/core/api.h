@@ -566,6 +566,16 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
                     result *r)
 {
     q->d.calls = 0;
+    if (q->flat == UNTRIED && q->listed && !g->sign_only) {
+        q->flat = tell_flat(a, b, o->cache, g, r) ? TELLING : IN_VAIN;
+        q->told = q->flat == TELLING;
+        *end = STILL;
+        if (q->told) {
+            q->d.scale = leveler(larger(size(r->lower), size(r->upper))); /* what the status is found in */
+            q->d.unscale = 1 / q->d.scale;
+            return 0;
+        }
+    }
     q->thin = q->listed && are_thin(&q->d) ? tell_thin(q, a, b, g, r) : UNTRIED;
     q->told = q->thin == TELLING;
     tell_polygons(q, a, b, o, g, r);
@@ -694,7 +704,7 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     search q;
     result r;
     if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
-    q.planar = UNTRIED;
+    q.planar = q.flat = UNTRIED;
     list_both(&q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,

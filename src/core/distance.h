@@ -65,7 +65,8 @@ typedef struct search {
     difference d;
     int listed;           /* the corners of both bodies, before all else */
     enum glanced thin;    /* how it went with thin cores, without a frame; and */
-    enum glanced planar;  /* with few corners in the plane */
+    enum glanced planar;  /* with few corners in the plane; and */
+    enum glanced flat;    /* with these in double */
     enum glanced glanced; /* IN_VAIN, AIMED: the corner is in s's first slot, in the caller's lengths */
     simplex s;
     vec v;

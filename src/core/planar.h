@@ -8,13 +8,10 @@
 #define GJK_CORE_PLANAR_H
 
 #include "fine.h"
+#include "flat.h"
 #include "thin.h"
 
 #if DIM == 2
-
-/* So many corners a body has at most, and so many are asked for. */
-#define PLACES (2 * RUN)
-#define ASKED_MOST 16
 
 /* Bounds are off by so many roundings of the root of A^2 + B^2 + c^2 at most, where the bodies reach A and B from their
  * positions, c apart (docs/bounds.md). */
@@ -72,15 +69,6 @@ static inline void list_places(const body *k, cluster *p)
     }
     p->of_box = (list){p->box, RUN, DIM, 0};
     p->from = &p->of_box;
-}
-
-/* Fewer than a run, again and again. */
-static APART void fill_run(const list *l, real run[RUN * DIM])
-{
-    for (size_t i = 0, k = 0; i < RUN; i++, k = k + 1 < l->count ? k + 1 : 0) {
-        run[DIM * i] = l->v[l->step * k];
-        run[DIM * i + 1] = l->v[l->step * k + 1];
-    }
 }
 
 /* What places corners: the body's map of points times their grain; and what no sum of a corner's coordinates is above.
@@ -729,10 +717,6 @@ HOT int is_within(const difference *d, const front *f, const goal *g)
 
 /* ---- the walk ---- */
 
-/* Where the walk ends: nowhere; where the corner asked for last shows that they are apart; at a front that is nearest,
- * or near enough; or it is held. */
-enum halt { LOST, SHOWN, FOREMOST, AROUND };
-
 HOT enum halt walk_front(const difference *d, const scene *k, front *f, const goal *g)
 {
     const real least = d->doubt * (UNIT / PLANAR_DOUBT);
@@ -908,11 +892,19 @@ HOT void say_plainly(result *r, int sign_only)
 HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o, int sign_only, result *r)
 {
     q->planar = UNTRIED;
-    if (!a || !b || !r || !asks_nothing_else(o) || !list_polygon(&q->d.a, a) || !list_polygon(&q->d.b, b)) return 0;
+    q->flat = UNTRIED;
+    if (!a || !b || !r || !asks_nothing_else(o)) return 0;
+    if (!HAS_SISTER && (!list_polygon(&q->d.a, a) || !list_polygon(&q->d.b, b))) return 0;
     const goal g = {.beyond = REAL_MAX,
                     .radius = a->radius + b->radius,
                     .sign_only = sign_only,
                     .max_steps = o && o->max_steps != 0 && o->max_steps < ASKED_MOST ? (int)o->max_steps : ASKED_MOST};
+    if (HAS_SISTER) {
+        q->flat = IN_VAIN;
+        if (!tell_flat(a, b, o ? o->cache : NULL, &g, r)) return 0;
+        say_plainly(r, sign_only);
+        return 1;
+    }
     q->planar = UNCLEAR;
     q->found.at.count = 0;
     if (!settle_polygons(&q->d, a, b)) return 0;
@@ -972,7 +964,8 @@ static inline int tell_polygons_in_frame(search *q, const shape *a, const shape 
 #else
 #define WHOLE inline
 #define are_planar(d) 0
-#define tell_at_once(q, a, b, o, sign_only, r) ((q)->planar = UNTRIED, 0)
+#define tell_flat(a, b, own, g, r) 0
+#define tell_at_once(q, a, b, o, sign_only, r) ((q)->planar = (q)->flat = UNTRIED, 0)
 #define tell_polygons(q, a, b, o, g, r) ((void)0)
 #define tell_polygons_in_frame(q, a, b, o, g, r) 0
 #endif
