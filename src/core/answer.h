@@ -53,8 +53,8 @@ static void bracket(result *r, const difference *d, real lower, real upper, cons
     }
     r->lower = larger(near * up, -REAL_MAX);
     r->upper = far * up;
-    if (size(r->lower) < REAL_MIN && near != 0) r->lower -= 2 * TINY; /* it was rounded on the way out */
-    if (size(r->upper) < REAL_MIN && far != 0) r->upper += 2 * TINY;
+    if (r->lower * level > near) r->lower -= TINY; /* it was rounded on the way out, of subnormals */
+    if (r->upper * level < far) r->upper += TINY;
 }
 
 /* How far apart, the radii taken off what the cores are apart, which is known to twice the digits: rounded once. */

@@ -261,8 +261,8 @@ static inline int advance(search *q)
     real vv = dot(v, v);
     q->weighed = 1;
     if (!(vv < q->vv)) { /* once more without assumptions */
-        /* of corners in a frame of size 1 to 2; a v as small as that itself has nothing to gain */
-        real noise = q->vv > 16 * UNIT * UNIT ? 16 * UNIT * root(q->vv) : 0;
+        /* of corners in a frame of size 1 to 2; a v without direction has nothing to gain */
+        real noise = vanished(q) ? 0 : 16 * UNIT * root(q->vv);
         memcpy(s->at, at, sizeof at);
         s->n = n + 1;
         q->weighed = 0;
