@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x7e9628e0ea4fbe32, 0x2da9729fc098f1df, 0x16b15a8076299b45};
+static const uint64_t known[3] = {0x84412ff267fa4a3f, 0x15f91a2cc5bd4720, 0x8f086d9b61c843a4};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x99ecec1b2c02e3aa, 0x5a15557d2ed9b1f2, 0x91cf8ec5fffd7d47};
+static const uint64_t known[3] = {0x538138fa3c6a3803, 0x69a35fca1dbfd9ed, 0x1a3f44392bccac01};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x1c07de63729d03fd, 0x8282f36a3da0699e, 0x05db8c75f2e736f7};
+static const uint64_t known[3] = {0x2a843ac674241a39, 0x2675328f528b3d42, 0x6f9bcfb1bc5a879f};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x2e64e1c1ec6cabab, 0x7e0fb07a3a00d0f3, 0x2ef138d1d9c96980};
+static const uint64_t known[3] = {0x11aaa718d10e32f3, 0xdb2e8be3999ee500, 0xe077baebd02aa7d7};
 #endif
 #if VARIANT_FLOAT
 typedef float real;
