@@ -88,20 +88,21 @@ static inline real far_out(const shape *s) { return s->pose ? peak(load(s->pose-
 
 /* The points x and y, from the bodies' positions, way apart in the frame, from the cores' to the shapes': each moves
  * toward the other by its radius, or, where the radii reach across, both move to one point between. */
-HOT void move_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b, int deep)
+HOT void move_points(result *r, const difference *d, vec normal, vec x, vec y, vec way, const shape *a, const shape *b,
+                     int deep)
 {
     real radius = a->radius + b->radius, far = larger(far_out(a), far_out(b));
-    int plain = !q->d.wild && far < PLAIN && radius < PLAIN;
-    real level = plain ? 1 : level_of(&q->d, radius, far), down = level * q->d.unscale, l = length(way);
+    int plain = !d->wild && far < PLAIN && radius < PLAIN;
+    real level = plain ? 1 : level_of(d, radius, far), down = level * d->unscale, l = length(way);
     vec on_a = moved(a->pose, x, down, level), on_b = moved(b->pose, y, down, level);
     if (deep > 1 || (deep && r->upper <= 0)) {
-        on_a = add(on_a, mul(q->normal, a->radius * level));
-        on_b = sub(on_b, mul(q->normal, b->radius * level));
+        on_a = add(on_a, mul(normal, a->radius * level));
+        on_b = sub(on_b, mul(normal, b->radius * level));
     } else if (r->upper <= 0 || l * down < radius * level) {
         real share = a->radius > 0 ? a->radius / radius : 0;
         on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
     } else if (radius > 0) {
-        vec toward_b = l > 0 ? mul(way, -1 / l) : q->normal;
+        vec toward_b = l > 0 ? mul(way, -1 / l) : normal;
         on_a = add(on_a, mul(toward_b, a->radius * level));
         on_b = sub(on_b, mul(toward_b, b->radius * level));
     }
@@ -113,7 +114,7 @@ HOT void move_points(result *r, const search *q, vec x, vec y, vec way, const sh
 static APART void place_points(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b,
                                int deep)
 {
-    move_points(r, q, mapped(&q->d.a, x), mapped(&q->d.b, y), way, a, b, deep);
+    move_points(r, &q->d, q->normal, mapped(&q->d.a, x), mapped(&q->d.b, y), way, a, b, deep);
 }
 
 /* The same of sharp bodies apart, of plain sizes in plain places, as a rule. */
@@ -133,6 +134,25 @@ static void witness(result *r, const search *q, const real weight[], const shape
     vec x = blend(&q->s, weight, offsetof(vertex, x), q->d.a.grain);
     vec y = blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain);
     place_points(r, q, x, y, blend(&q->s, weight, offsetof(vertex, w), 1), a, b, deep);
+}
+
+/* Nothing is asked but what everyone asks. */
+static inline int asks_nothing_else(const options *o)
+{
+    return !o || (o->size == sizeof *o && !o->tight &&
+                  size(o->abs_tol) + size(o->rel_tol) + size(o->cutoff) + size(o->slack) == 0);
+}
+
+/* As the question has it: of the distance none is below 0. */
+HOT void say_plainly(result *r, int sign_only)
+{
+    if (sign_only) {
+        r->value = r->lower > 0 ? r->lower : r->upper;
+        return;
+    }
+    r->upper = larger(r->upper, 0);
+    r->lower = larger(r->lower, 0);
+    r->value = smaller(larger(r->value, r->lower), r->upper);
 }
 
 #endif

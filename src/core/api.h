@@ -532,7 +532,7 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     }
     if (boxes && !g->sign_only) q->told = tell_extent(q, a, b, o, g, r);
     if (q->thin == UNCLEAR) {
-        q->thin = tell_thin_in_frame(q, a, b, g, r) ? TELLING : IN_VAIN;
+        q->thin = tell_thin_in_frame(&q->d, a, b, g, r) ? TELLING : IN_VAIN;
         q->told = q->thin == TELLING;
     }
     if (HAS_SISTER && g->sign_only && q->thin && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
@@ -576,7 +576,7 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
             return 0;
         }
     }
-    q->thin = q->listed && are_thin(&q->d) ? tell_thin(q, a, b, g, r) : UNTRIED;
+    if (q->thin == UNTRIED && q->listed && are_thin(&q->d)) q->thin = tell_thin(&q->d, a, b, g, r);
     q->told = q->thin == TELLING;
     tell_polygons(q, a, b, o, g, r);
     *end = q->told ? STILL : q->listed ? answer_plainly(q, a, b, o, g, r) : FAULT;
@@ -620,10 +620,35 @@ static WHOLE int answer_distance(search *q, const shape *a, const shape *b, cons
     return r.status;
 }
 
+/* A workspace is there, aligned, and large enough; or there is none. */
+static int has_workspace(const options *o)
+{
+    if (!o->workspace) return o->workspace_bytes == 0;
+    return (uintptr_t)o->workspace % sizeof(real) == 0 && o->workspace_bytes >= bytes_for(FEWEST_TIPS);
+}
+
+/* What most ask, of bodies for which there is a shorter way. 0: it is left to the whole answer. */
+HOT int tell_plainly(search *q, const shape *a, const shape *b, const options *o, int sign_only, int deep, result *r)
+{
+    q->thin = q->planar = q->flat = UNTRIED;
+    if (!a || !b || !r || !asks_nothing_else(o) || (deep && o && !has_workspace(o))) return 0;
+    if (DIM == 3 || !HAS_SISTER) { /* in the plane flat.h has them */
+        const goal g = {.beyond = REAL_MAX, .radius = a->radius + b->radius, .sign_only = sign_only, .deep = deep};
+        q->thin = tell_thin_at_once(a, b, o ? o->cache : NULL, &g, r);
+        if (q->thin == TELLING) {
+            if (deep) r->value = smaller(larger(r->value, r->lower), r->upper);
+            else say_plainly(r, sign_only);
+            return 1;
+        }
+        if (q->thin != UNTRIED) return 0;
+    }
+    return !deep && tell_at_once(q, a, b, o, sign_only, r);
+}
+
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
 {
     search q;
-    if (tell_at_once(&q, a, b, given, 0, out)) return out->status = GJK_OK;
+    if (tell_plainly(&q, a, b, given, 0, 0, out)) return out->status = GJK_OK;
     return answer_distance(&q, a, b, given, out);
 }
 
@@ -681,7 +706,7 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
 GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
 {
     search q;
-    if (tell_at_once(&q, a, b, given, 1, out)) return out->status = GJK_DECIDED;
+    if (tell_plainly(&q, a, b, given, 1, 0, out)) return out->status = GJK_DECIDED;
     return answer_intersect(&q, a, b, given, out);
 }
 
@@ -690,22 +715,13 @@ GJK_API size_t pub(workspace_size)(uint32_t corners)
     return corners >= FEWEST_TIPS && corners <= MOST_TIPS ? bytes_for(corners) : 0;
 }
 
-/* A workspace is there, aligned, and large enough; or there is none. */
-static int has_workspace(const options *o)
-{
-    if (!o->workspace) return o->workspace_bytes == 0;
-    return (uintptr_t)o->workspace % sizeof(real) == 0 && o->workspace_bytes >= bytes_for(FEWEST_TIPS);
-}
-
-GJK_API int pub(penetration)(const shape *a, const shape *b, const options *given, result *out)
+static int answer_penetration(search *q, const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
     const options *o = read_options(&own, given);
-    search q;
     result r;
     if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
-    q.planar = q.flat = UNTRIED;
-    list_both(&q, a, b, o);
+    list_both(q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
               .within = -1,
@@ -713,21 +729,28 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
               .abs_tol = o->abs_tol,
               .rel_tol = o->rel_tol,
               .early = o->abs_tol > 0 || o->rel_tol > 0,
-              .exact = are_exact(&q, a, b, o),
+              .exact = are_exact(q, a, b, o),
               .deep = 1,
               .max_steps = (int)o->max_steps};
     g.tight = g.exact && o->tight;
     if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
 
     enum end end;
-    int bad = reply_to(&q, a, b, o, &g, &end, &r);
+    int bad = reply_to(q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.lower = larger(r.lower, -REAL_MAX); /* any slack may have been taken off */
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, o, end, &q, radius, 1);
+    r.status = distance_status(&r, o, end, q, radius, 1);
     if (g.tight && r.status == GJK_OK && !narrow(&r, o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
     *out = r;
     return r.status;
+}
+
+GJK_API int pub(penetration)(const shape *a, const shape *b, const options *given, result *out)
+{
+    search q;
+    if (tell_plainly(&q, a, b, given, 0, 1, out)) return out->status = GJK_OK;
+    return answer_penetration(&q, a, b, given, out);
 }
 
 #endif

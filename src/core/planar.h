@@ -351,7 +351,7 @@ static APART int spell_in_full(search *q, verdict own, int steps, int deep, cons
     bracket(&told, &q->d, t->lower, t->upper, a, b);
     if (!(told.lower > 0) && !(told.upper < 0)) return 0;
     EACH(q->normal.c[i] = 0 - t->v.c[i] / t->l);
-    move_points(&told, q, t->a, t->b, t->way, a, b, deep);
+    move_points(&told, &q->d, q->normal, t->a, t->b, t->way, a, b, deep);
     store(told.normal, q->normal);
     *r = told;
     return 1;
@@ -838,13 +838,6 @@ static inline void tell_polygons(search *q, const shape *a, const shape *b, cons
     q->told = q->planar == TELLING;
 }
 
-/* Nothing is asked but what everyone asks. */
-static inline int asks_nothing_else(const options *o)
-{
-    return !o || (o->size == sizeof *o && !o->tight &&
-                  size(o->abs_tol) + size(o->rel_tol) + size(o->cutoff) + size(o->slack) == 0);
-}
-
 /* A polygon of few corners, and all that is known of it. 0: it is none. */
 HOT int list_polygon(body *k, const shape *s)
 {
@@ -875,25 +868,12 @@ HOT int settle_polygons(difference *d, const shape *a, const shape *b)
            a->radius >= 0 && b->radius >= 0 && a->radius + b->radius < PLAIN;
 }
 
-/* As the question has it: of the distance none is below 0. */
-HOT void say_plainly(result *r, int sign_only)
-{
-    if (sign_only) {
-        r->value = r->lower > 0 ? r->lower : r->upper;
-        return;
-    }
-    r->upper = larger(r->upper, 0);
-    r->lower = larger(r->lower, 0);
-    r->value = smaller(larger(r->value, r->lower), r->upper);
-}
-
 /* The everyday question of two polygons: how far apart, or whether they meet. 0: it is left to the whole answer, which
  * goes on from there. */
 HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o, int sign_only, result *r)
 {
     q->planar = UNTRIED;
     q->flat = UNTRIED;
-    if (!a || !b || !r || !asks_nothing_else(o)) return 0;
     if (!HAS_SISTER && (!list_polygon(&q->d.a, a) || !list_polygon(&q->d.b, b))) return 0;
     const goal g = {.beyond = REAL_MAX,
                     .radius = a->radius + b->radius,

@@ -7,12 +7,13 @@
 #define GJK_CORE_THIN_H
 
 #include "axes.h"
+#include "duo.h"
 
 /* Two points, and what they show. */
 typedef struct sight_of_two {
-    closest pair;
     vec a, b;    /* these points, from the bodies' positions */
-    vec low;     /* what their corner lost to rounding */
+    vec w;       /* their corner */
+    vec low;     /* what it lost to rounding */
     vec v;       /* the way from b to a; of a point in a box the way out */
     real l;      /* its length */
     real lies;   /* by so much lower than the pair does a corner lie along v, */
@@ -48,15 +49,6 @@ static inline real square_of_thin(const body *k, real grain)
     return larger(dot(x, x), dot(y, y));
 }
 
-/* The way between them. What only tells whether they meet needs no more digits. */
-static inline void sight_pair(const difference *d, const goal *g, sight_of_two *e)
-{
-    e->pair.w = sub(e->a, add(e->b, d->c));
-    e->low = g->sign_only ? axis(0, 0) : lost_of_pair(d, &e->pair);
-    e->v = add(e->pair.w, e->low);
-    e->l = length(e->v);
-}
-
 /* A line rises so much for each length of it, or by err more or less: the most by which an end of it lies below the
  * point that is so far from the ends. */
 static inline real fall_along(real rise, real err, real behind, real ahead)
@@ -70,32 +62,40 @@ static inline real lost_of_rise(real edge, real rise) { return UNIT * (7 * edge 
 
 /* ---- points and segments ---- */
 
-typedef struct stick {
-    vec end[2]; /* in its own coordinates, times their grain, */
-    vec at[2];  /* and placed */
-    vec way;    /* from the first to the second, */
-    real ll;    /* its square, */
-    real per;   /* and 1 by that; 0 of a point */
-} stick;
+/* One of each body, a point or a segment. */
+typedef struct sticks {
+    duo_map m;   /* their maps, */
+    duos end[2]; /* in their own coordinates, times their grain, */
+    duos at[2];  /* and placed */
+    duos way;    /* from the first to the second, */
+    duo ll;      /* its square, */
+    duo per;     /* and 1 by that; 0 of a point */
+} sticks;
 
-static inline stick stick_of(const body *k)
+HOT const real *map_of(const body *k) { return k->posed ? k->m : unturned; }
+
+HOT const real *last_of_list(const list *l) { return l->v + (l->count - 1) * l->step; }
+
+HOT void place_sticks(const difference *d, sticks *s)
 {
-    stick s;
-    s.end[0] = mul(first_end(k), k->grain);
-    s.end[1] = mul(last_end(k), k->grain);
-    s.at[0] = mapped(k, s.end[0]);
-    s.at[1] = mapped(k, s.end[1]);
-    s.way = mapped(k, sub(s.end[1], s.end[0]));
-    s.ll = dot(s.way, s.way);
-    s.per = s.ll > 0 ? 1 / s.ll : 0;
-    return s;
+    const duo grain = duo_of(d->a.grain, d->b.grain);
+    s->m = duo_map_at(map_of(&d->a), map_of(&d->b));
+    s->end[0] = duos_mul(duos_at(d->a.list.v, d->b.list.v), grain);
+    s->end[1] = duos_mul(duos_at(last_of_list(&d->a.list), last_of_list(&d->b.list)), grain);
+    s->at[0] = duos_mapped(&s->m, s->end[0]);
+    s->at[1] = duos_mapped(&s->m, s->end[1]);
+    s->way = duos_mapped(&s->m, duos_sub(s->end[1], s->end[0]));
+    s->ll = duos_dot(s->way, s->way);
+    s->per = duo_where_larger(s->ll, duo_both(0), duo_div(duo_both(1), s->ll), duo_both(0));
 }
 
 /* Its square does not underflow, if it is none to be left out. */
-static inline int is_of_length(const stick *k, const difference *d)
+HOT int is_of_length(real ll, vec way, real least) { return ll > least * least || !(peak(way) > 0); }
+
+HOT int are_of_length(const sticks *s, const difference *d)
 {
     const real least = UNIT * UNIT * (d->doubt / GLANCE_DOUBT);
-    return !(peak(k->way) > 0) || k->ll > least * least;
+    return is_of_length(of_a(s->ll), vec_of_a(s->way), least) && is_of_length(of_b(s->ll), vec_of_b(s->way), least);
 }
 
 static inline real within_way(real share) { return larger(smaller(share, 1), 0); }
@@ -103,59 +103,117 @@ static inline real within_way(real share) { return larger(smaller(share, 1), 0);
 /* Of the way from the first end to the second the shares at which the sticks are nearest: where their lines are, if
  * that is on them; and the one's nearest to the other's, which also is the answer of parallel ones (Ericson 2005,
  * 5.1.9). */
-static inline void nearest_shares(const stick *a, const stick *b, vec c, real *s, real *t)
+HOT duo nearest_shares(const sticks *k, vec c)
 {
-    const vec r = sub(a->at[0], add(b->at[0], c));
-    const real ab = dot(a->way, b->way), ar = dot(a->way, r), br = dot(b->way, r);
-    const real on = ab * b->per, whole = a->ll - on * ab;
-    *s = whole > PARALLEL * a->ll ? within_way((on * br - ar) / whole) : (real)0.5;
-    *t = within_way((ab * *s + br) * b->per);
-    *s = within_way((ab * *t - ar) * a->per);
+    const vec r = sub(vec_of_a(k->at[0]), add(vec_of_b(k->at[0]), c));
+    const duo along = duos_dot(k->way, duos_both(r));
+    const real ab = dot(vec_of_a(k->way), vec_of_b(k->way)), ar = of_a(along), br = of_b(along);
+    const real aa = of_a(k->ll), per_a = of_a(k->per), per_b = of_b(k->per);
+    const real on = ab * per_b, whole = aa - on * ab;
+    real s = whole > PARALLEL * aa ? within_way((on * br - ar) / whole) : (real)0.5;
+    const real t = within_way((ab * s + br) * per_b);
+    s = within_way((ab * t - ar) * per_a);
+    return duo_of(s, t);
 }
 
-/* The point at that share of the way, from the end that is nearer, placed; and what it is in its own coordinates. */
-static inline vec point_at(const stick *k, real share, int exactly, vec *x, vec *low)
+/* Points at such shares of the way, from the end that is nearer: placed, and in their own coordinates. */
+typedef struct spots {
+    duos at, x, x_low;
+} spots;
+
+HOT void place_spots(const sticks *k, duo share, int exactly, spots *p)
 {
-    const int far = share > (real)0.5;
-    const real part = far ? 1 - share : share;
-    if (exactly) {
-        const vec from = k->end[far], to = k->end[!far];
-        for (int i = 0; i < DIM; i++) {
-            const twin t = sum_of(from.c[i], (to.c[i] - from.c[i]) * part);
-            x->c[i] = t.high;
-            low->c[i] = t.low;
-        }
-    }
-    return add(k->at[far], mul(k->way, far ? -part : part));
+    const duo half = duo_both((real)0.5), rest = duo_sub(duo_both(1), share);
+    const duo part = duo_where_larger(share, half, rest, share);
+    const duo back = duo_where_larger(share, half, duo_sub(duo_both(0), rest), share);
+    p->at = duos_add(duos_where_larger(share, half, k->at[1], k->at[0]), duos_mul(k->way, back));
+    if (!exactly) return;
+    const duos from = duos_where_larger(share, half, k->end[1], k->end[0]);
+    const duos to = duos_where_larger(share, half, k->end[0], k->end[1]), way = duos_mul(duos_sub(to, from), part);
+    p->x = duos_add(from, way);
+    EACH(p->x_low.c[i] = duo_lost(from.c[i], way.c[i], p->x.c[i]));
 }
 
 /* The length of what rounding is a share of in the way from end to end. */
-static inline real edge_of(const body *k, const stick *e)
+HOT duo edges_of(const sticks *k)
 {
-    const vec way = sub(e->end[1], e->end[0]);
-    return k->posed ? length(map_size(k->m, way)) : length(way);
+    const duos way = duos_sub(k->end[1], k->end[0]);
+    duos far;
+    EACH(far.c[i] = duos_dot_size(row_of_map(&k->m, i), way));
+    return duo_root(duos_dot(far, far));
 }
 
-static inline void sight_sticks(const difference *d, const goal *g, sight_of_two *e)
+/* m (x + low): a part without rounding, and the rest, as place_in_parts has it (plain.h). */
+HOT duo upper_digits_of(duo x, duo big) { return duo_sub(duo_add(x, big), big); }
+
+HOT duo big_above(real a, real b)
 {
-    const stick a = stick_of(&d->a), b = stick_of(&d->b);
-    real s, t, edge_a = 0, edge_b = 0;
-    e->inside = 0;
-    nearest_shares(&a, &b, d->c, &s, &t);
-    e->a = point_at(&a, s, !g->sign_only, &e->pair.x, &e->pair.x_low);
-    e->b = point_at(&b, t, !g->sign_only, &e->pair.y, &e->pair.y_low);
-    sight_pair(d, g, e);
-    if (!g->sign_only) {
-        edge_a = edge_of(&d->a, &a);
-        edge_b = edge_of(&d->b, &b);
+    const real off = (real)((bits)3 << (MANTISSA - GRID - 1));
+    return duo_of(above(a) * off, above(b) * off);
+}
+
+HOT void place_spots_in_parts(const difference *d, const duo_map *m, const spots *p, duos *upper, duos *rest)
+{
+    const duo far = duos_peak(p->x), of_point = big_above(of_a(far), of_b(far));
+    const duo of_map = big_above(d->a.norm, d->b.norm);
+    duos x_up;
+    EACH(x_up.c[i] = upper_digits_of(p->x.c[i], of_point));
+    const duos x_rest = duos_add(duos_sub(p->x, x_up), p->x_low);
+    for (int row = 0; row < DIM; row++) {
+        const duos own = row_of_map(m, row);
+        duos up;
+        EACH(up.c[i] = upper_digits_of(own.c[i], of_map));
+        upper->c[row] = duos_dot(up, x_up);
+        rest->c[row] = duo_add(duos_dot(up, x_rest), duos_dot(duos_sub(own, up), p->x));
     }
-    const real rise_a = dot(e->v, a.way) / e->l, rise_b = -dot(e->v, b.way) / e->l;
-    e->fall = fall_along(rise_a, lost_of_rise(edge_a, rise_a), s, 1 - s) +
-              fall_along(rise_b, lost_of_rise(edge_b, rise_b), t, 1 - t);
-    e->lies = fall_along(rise_a, 0, s, 1 - s) + fall_along(rise_b, 0, t, 1 - t);
-    e->edge = edge_a + edge_b;
+}
+
+/* What rounding took from their corner w. */
+HOT vec lost_of_spots(const difference *d, const duo_map *m, const spots *p, vec w)
+{
+    duos upper, rest;
+    vec low;
+    place_spots_in_parts(d, m, p, &upper, &rest);
+    EACH(const twin t = sum_of(of_a(upper.c[i]), -of_b(upper.c[i])); const twin s = sum_of(t.high, -d->c.c[i]);
+         low.c[i] = (s.high - w.c[i]) + ((s.low + t.low) + (of_a(rest.c[i]) - of_b(rest.c[i]) - d->c_low.c[i])));
+    return low;
+}
+
+/* As lost_of_rise and fall_along have it, of both. */
+HOT duo lost_of_rises(duo edge, duo rise)
+{
+    return duo_mul(duo_both(UNIT), duo_add(duo_mul(duo_both(7), edge), duo_mul(duo_both(4), duo_size(rise))));
+}
+
+HOT real falls_along(duo rise, duo err, duo share)
+{
+    const duo fall =
+        duo_larger(duo_mul(duo_add(err, rise), share), duo_mul(duo_sub(err, rise), duo_sub(duo_both(1), share)));
+    return of_a(fall) + of_b(fall);
+}
+
+/* What only tells whether they meet needs no more digits. */
+HOT void sight_sticks(const difference *d, const goal *g, const sticks *k, sight_of_two *e)
+{
+    const int exactly = !g->sign_only;
+    const duo share = nearest_shares(k, d->c);
+    duo edge = duo_both(0);
+    spots p;
+    place_spots(k, share, exactly, &p);
+    e->inside = 0;
+    e->a = vec_of_a(p.at);
+    e->b = vec_of_b(p.at);
+    e->w = sub(e->a, add(e->b, d->c));
+    e->low = exactly ? lost_of_spots(d, &k->m, &p, e->w) : axis(0, 0);
+    e->v = exactly ? add(e->w, e->low) : e->w;
+    e->l = are_of_length(k, d) ? length(e->v) : 0;
+    if (exactly) edge = edges_of(k);
+    const duo toward = duo_of(1, -1);
+    const duo rise = duo_div(duo_mul(duos_dot(k->way, duos_both(e->v)), toward), duo_both(e->l));
+    e->fall = falls_along(rise, lost_of_rises(edge, rise), share);
+    e->lies = falls_along(rise, duo_both(0), share);
+    e->edge = of_a(edge) + of_b(edge);
     e->off = UNIT * e->edge * (real)1.125;
-    if (!is_of_length(&a, d) || !is_of_length(&b, d)) e->l = 0;
 }
 
 /* ---- a point and a box ---- */
@@ -251,13 +309,14 @@ static inline void sight_box(const difference *d, const goal *g, real level, sig
     const real toward = of_a ? -1 : 1; /* the box, along v */
     vec foot = clamped(k.x, k.half);
     if (leaves) foot.c[k.out] = signed_as(k.half.c[k.out], k.x.c[k.out]);
-    e->pair.x = of_a ? foot : k.point;
-    e->pair.y = of_a ? k.point : foot;
-    e->pair.x_low = e->pair.y_low = axis(0, 0);
-    e->a = mapped(&d->a, e->pair.x);
-    e->b = mapped(&d->b, e->pair.y);
+    closest pair = {.x = of_a ? foot : k.point, .y = of_a ? k.point : foot};
+    e->a = mapped(&d->a, pair.x);
+    e->b = mapped(&d->b, pair.y);
     e->inside = k.out >= 0;
-    sight_pair(d, g, e);
+    e->w = pair.w = sub(e->a, add(e->b, d->c));
+    e->low = g->sign_only ? axis(0, 0) : lost_of_pair(d, &pair);
+    e->v = add(e->w, e->low);
+    e->l = length(e->v);
     if (e->inside) sight_way_out(&k, toward, e);
     const vec rise = mul(k.box->posed ? pull(k.box->m, e->v) : e->v, toward / e->l);
     const real longest = g->sign_only ? 0 : root(peak(k.uu)) / level;
@@ -266,7 +325,7 @@ static inline void sight_box(const difference *d, const goal *g, real level, sig
     e->edge = 2 * longest * spread(k.half);
     e->off = 0;
     if (!e->inside) return;
-    e->height = height_to_twice(e->v, e->pair.w, e->low);
+    e->height = height_to_twice(e->v, e->w, e->low);
     e->deep = sure_room(&k, leaves, -e->height.high, d->doubt);
     e->broad = peak(k.half) / k.level;
     if (leaves) return;
@@ -306,37 +365,46 @@ static inline int bound_roughly(const difference *d, const sight_of_two *e, real
 }
 
 /* What the two points tell. 0: that is not whether the bodies meet, or not how far they are apart. */
-static int tell_sight(search *q, const sight_of_two *e, const shape *a, const shape *b, const goal *g, result *r)
+HOT int tell_sight(const difference *d, const sight_of_two *e, const shape *a, const shape *b, const goal *g, result *r)
 {
-    const difference *d = &q->d;
     const int rough = g->sign_only || (e->inside && !g->deep);
-    real upper;
+    real lower, upper, value = 0;
+    result told;
     if (!(e->l > 0)) return 0;
-    r->value = 0;
     if (rough) {
-        if (!bound_roughly(d, e, &q->lower, &upper)) return 0;
+        if (!bound_roughly(d, e, &lower, &upper)) return 0;
     } else {
-        const twin l = e->inside ? e->height : length_to_twice(e->pair.w, e->low);
-        if (!bound_finely(d, e, l, g, &q->lower, &upper)) return 0;
-        r->value = gap_of(d, l, a, b);
+        const twin l = e->inside ? e->height : length_to_twice(e->w, e->low);
+        if (!bound_finely(d, e, l, g, &lower, &upper)) return 0;
+        value = gap_of(d, l, a, b);
     }
-    bracket(r, d, q->lower, upper, a, b);
-    if (!(r->lower > 0) && !(r->upper < 0)) return 0;
-    EACH(q->normal.c[i] = 0 - e->v.c[i] / e->l);
-    store(r->normal, q->normal);
-    move_points(r, q, e->a, e->b, e->pair.w, a, b, g->deep);
+    bracket(&told, d, lower, upper, a, b);
+    if (!(told.lower > 0) && !(told.upper < 0)) return 0;
+    vec normal;
+    EACH(normal.c[i] = 0 - e->v.c[i] / e->l);
+    r->lower = told.lower;
+    r->upper = told.upper;
+    r->value = value;
+    store(r->normal, normal);
+    move_points(r, d, normal, e->a, e->b, e->w, a, b, g->deep);
     r->steps = 1;
     r->supports = 2;
     r->reserved = 0;
     return 1;
 }
 
-static inline int look_at_thin(search *q, real level, const shape *a, const shape *b, const goal *g, result *r)
+HOT int tell_sticks(const difference *d, const sticks *k, const shape *a, const shape *b, const goal *g, result *r)
 {
     sight_of_two e;
-    if (q->d.a.asked == AS_BOX || q->d.b.asked == AS_BOX) sight_box(&q->d, g, level, &e);
-    else sight_sticks(&q->d, g, &e);
-    return tell_sight(q, &e, a, b, g, r);
+    sight_sticks(d, g, k, &e);
+    return tell_sight(d, &e, a, b, g, r);
+}
+
+HOT int tell_point_and_box(const difference *d, real level, const shape *a, const shape *b, const goal *g, result *r)
+{
+    sight_of_two e;
+    sight_box(d, g, level, &e);
+    return tell_sight(d, &e, a, b, g, r);
 }
 
 /* ---- the doubt ---- */
@@ -361,6 +429,13 @@ static inline void know_norms(difference *d, real of_a, real of_b)
     d->b.norm = of_b;
 }
 
+/* Neither the square of their roots nor of their radii leaves the plain. */
+HOT int are_of_plain_size(real square, const shape *a, const shape *b)
+{
+    return square > 1 / PLAIN && square < PLAIN * PLAIN && a->radius >= 0 && b->radius >= 0 &&
+           a->radius + b->radius < PLAIN;
+}
+
 /* The doubt without a frame, in units of the root of A^2 + B^2 + c^2, of sets whose squared reaches are these; and the
  * squares of the maps. 0: the sizes are none to do without. */
 HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a, real set_b, real unit, real map[2])
@@ -369,42 +444,102 @@ HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a,
     map[1] = square_of_map(&d->b, squared_axes(&d->b, 1));
     const real square = map[0] * set_a + map[1] * set_b + dot(d->c, d->c);
     d->doubt = unit * root(square);
-    return is_of_plain_size(&d->a, map[0], set_a) && is_of_plain_size(&d->b, map[1], set_b) && square > 1 / PLAIN &&
-           square < PLAIN * PLAIN && a->radius >= 0 && b->radius >= 0 && a->radius + b->radius < PLAIN;
+    return is_of_plain_size(&d->a, map[0], set_a) && is_of_plain_size(&d->b, map[1], set_b) &&
+           are_of_plain_size(square, a, b);
 }
 
-/* Without a frame. UNCLEAR: the sizes are none for that. */
-static enum glanced tell_thin(search *q, const shape *a, const shape *b, const goal *g, result *r)
+static APART enum glanced tell_sticks_outside(difference *d, const shape *a, const shape *b, const goal *g, result *r)
 {
-    difference *d = &q->d;
-    stay_outside(d, a, b);
-    d->slack = 0;
+    sticks k;
+    place_sticks(d, &k);
+    const duo set = duo_larger(duos_dot(k.end[0], k.end[0]), duos_dot(k.end[1], k.end[1]));
+    const duo squares = square_of_duo_map(&k.m);
+    const real map_a = d->a.posed ? of_a(squares) : 1, map_b = d->b.posed ? of_b(squares) : 1;
+    const real square = map_a * of_a(set) + map_b * of_b(set) + dot(d->c, d->c);
+    d->doubt = GLANCE_DOUBT * root(square);
+    if (!is_of_plain_size(&d->a, map_a, of_a(set)) || !is_of_plain_size(&d->b, map_b, of_b(set))) return UNCLEAR;
+    if (!are_of_plain_size(square, a, b)) return UNCLEAR;
+    if (!g->sign_only) {
+        know_norms(d, root(map_a), root(map_b));
+        d->c_low = offset_low(a->pose, b->pose);
+    }
+    return tell_sticks(d, &k, a, b, g, r) ? TELLING : IN_VAIN;
+}
+
+static APART enum glanced tell_box_outside(difference *d, const shape *a, const shape *b, const goal *g, result *r)
+{
     real map[2];
     if (!doubt_outside(d, a, b, square_of_thin(&d->a, 1), square_of_thin(&d->b, 1), GLANCE_DOUBT, map)) return UNCLEAR;
     if (!g->sign_only) {
         know_norms(d, root(map[0]), root(map[1]));
-        know_offset(d, a, b);
+        d->c_low = offset_low(a->pose, b->pose);
     }
-    const real level = d->a.asked == AS_BOX ? leveler(root(map[0])) : d->b.asked == AS_BOX ? leveler(root(map[1])) : 1;
-    return look_at_thin(q, level, a, b, g, r) ? TELLING : IN_VAIN;
+    const real level = leveler(root(map[d->b.asked == AS_BOX]));
+    return tell_point_and_box(d, level, a, b, g, r) ? TELLING : IN_VAIN;
+}
+
+/* Without a frame. UNCLEAR: the sizes are none for that. */
+HOT enum glanced tell_thin(difference *d, const shape *a, const shape *b, const goal *g, result *r)
+{
+    stay_outside(d, a, b);
+    d->slack = 0;
+    return d->a.asked == AS_BOX || d->b.asked == AS_BOX ? tell_box_outside(d, a, b, g, r)
+                                                        : tell_sticks_outside(d, a, b, g, r);
 }
 
 /* In the frame, where the sizes were none to do without. */
-static APART int tell_thin_in_frame(search *q, const shape *a, const shape *b, const goal *g, result *r)
+static APART int tell_thin_in_frame(difference *d, const shape *a, const shape *b, const goal *g, result *r)
 {
-    const difference before = q->d;
-    difference *d = &q->d;
+    const difference before = *d;
     const real level_a = level_of_map(&d->a), level_b = level_of_map(&d->b);
     const real map_a = square_of_map(&d->a, squared_axes(&d->a, level_a));
     const real map_b = square_of_map(&d->b, squared_axes(&d->b, level_b));
     const real set_a = square_of_thin(&d->a, d->a.grain / level_a), set_b = square_of_thin(&d->b, d->b.grain / level_b);
+    const int of_a = d->a.asked == AS_BOX, boxed = of_a || d->b.asked == AS_BOX;
     d->doubt = GLANCE_DOUBT * root(map_a * set_a + map_b * set_b + dot(d->c, d->c)) + (d->wild ? d->lost : 0);
     know_norms(d, root(map_a) / level_a, root(map_b) / level_b);
     know_offset(d, a, b);
-    if (look_at_thin(q, d->a.asked == AS_BOX ? level_a : level_b, a, b, g, r)) return 1;
-    blank(q);
+    sticks k;
+    if (!boxed) place_sticks(d, &k);
+    if (boxed ? tell_point_and_box(d, of_a ? level_a : level_b, a, b, g, r) : tell_sticks(d, &k, a, b, g, r)) return 1;
     *d = before;
     return 0;
+}
+
+/* ---- the door ---- */
+
+/* A point or a segment, or a box, by what the caller says it is. 0: none of these. */
+HOT int list_thin(body *k, const shape *s)
+{
+    static const real nothing[DIM] = {0};
+    k->data = s->data;
+    k->posed = s->pose != NULL;
+    if (k->posed) k->m = s->pose->m;
+    k->asked = s->support == pub(support_box) ? AS_BOX : AS_LIST;
+    if (s->support == pub(support_segment)) {
+        const segment *e = s->data;
+        if (!e) return 0;
+        k->list = (list){e->v[0], 2, DIM, 0};
+        return 1;
+    }
+    if (s->support == pub(support_origin)) {
+        k->list = (list){nothing, 1, DIM, 0};
+        return 1;
+    }
+    const box *e = s->data;
+    if (k->asked != AS_BOX || !e) return 0;
+    EACH(if (!(e->half[i] >= 0)) return 0);
+    return 1;
+}
+
+/* Of two thin bodies, before anything else is set up. UNTRIED: they are none. */
+HOT enum glanced tell_thin_at_once(const shape *a, const shape *b, cache *own, const goal *g, result *r)
+{
+    difference d;
+    if (!list_thin(&d.a, a) || !list_thin(&d.b, b) || !are_thin(&d)) return UNTRIED;
+    const enum glanced seen = tell_thin(&d, a, b, g, r);
+    if (seen == TELLING && own) own->count = 0; /* there is nothing that a formula would start from */
+    return seen;
 }
 
 #endif

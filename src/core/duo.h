@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/* A number of each of the two bodies, side by side: what is done with the one is done with the other, where the machine
+ * can at once. Each is rounded as it is alone. */
+#ifndef GJK_CORE_DUO_H
+#define GJK_CORE_DUO_H
+
+#include "exact.h"
+
+#if HAS_LANES && REAL_IS_DOUBLE
+typedef struct duo {
+    __m128d c;
+} duo;
+
+HOT duo duo_of(real a, real b) { return (duo){_mm_setr_pd(a, b)}; }
+HOT duo duo_at(const real *a, const real *b) { return (duo){_mm_loadh_pd(_mm_load_sd(a), b)}; }
+HOT real of_a(duo x) { return _mm_cvtsd_f64(x.c); }
+HOT real of_b(duo x) { return _mm_cvtsd_f64(_mm_unpackhi_pd(x.c, x.c)); }
+HOT duo duo_add(duo x, duo y) { return (duo){_mm_add_pd(x.c, y.c)}; }
+HOT duo duo_sub(duo x, duo y) { return (duo){_mm_sub_pd(x.c, y.c)}; }
+HOT duo duo_mul(duo x, duo y) { return (duo){_mm_mul_pd(x.c, y.c)}; }
+HOT duo duo_div(duo x, duo y) { return (duo){_mm_div_pd(x.c, y.c)}; }
+HOT duo duo_root(duo x) { return (duo){_mm_sqrt_pd(x.c)}; }
+HOT duo duo_size(duo x) { return (duo){_mm_andnot_pd(_mm_set1_pd(-0.0), x.c)}; }
+HOT duo duo_larger(duo x, duo y) { return (duo){_mm_max_pd(x.c, y.c)}; }
+/* v where x > y, else w. */
+HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
+{
+    const __m128d mask = _mm_cmpgt_pd(x.c, y.c);
+    return (duo){_mm_or_pd(_mm_and_pd(mask, v.c), _mm_andnot_pd(mask, w.c))};
+}
+#elif HAS_LANES
+typedef struct duo {
+    __m128 c; /* the first two */
+} duo;
+
+HOT duo duo_of(real a, real b) { return (duo){_mm_setr_ps(a, b, 0, 0)}; }
+HOT duo duo_at(const real *a, const real *b) { return (duo){_mm_unpacklo_ps(_mm_load_ss(a), _mm_load_ss(b))}; }
+HOT real of_a(duo x) { return _mm_cvtss_f32(x.c); }
+HOT real of_b(duo x) { return _mm_cvtss_f32(_mm_shuffle_ps(x.c, x.c, 0x55)); }
+HOT duo duo_add(duo x, duo y) { return (duo){_mm_add_ps(x.c, y.c)}; }
+HOT duo duo_sub(duo x, duo y) { return (duo){_mm_sub_ps(x.c, y.c)}; }
+HOT duo duo_mul(duo x, duo y) { return (duo){_mm_mul_ps(x.c, y.c)}; }
+HOT duo duo_div(duo x, duo y) { return (duo){_mm_div_ps(x.c, y.c)}; }
+HOT duo duo_root(duo x) { return (duo){_mm_sqrt_ps(x.c)}; }
+HOT duo duo_size(duo x) { return (duo){_mm_andnot_ps(_mm_set1_ps(-0.0f), x.c)}; }
+HOT duo duo_larger(duo x, duo y) { return (duo){_mm_max_ps(x.c, y.c)}; }
+HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
+{
+    const __m128 mask = _mm_cmpgt_ps(x.c, y.c);
+    return (duo){_mm_or_ps(_mm_and_ps(mask, v.c), _mm_andnot_ps(mask, w.c))};
+}
+#else
+typedef struct duo {
+    real c[2];
+} duo;
+
+HOT duo duo_of(real a, real b) { return (duo){{a, b}}; }
+HOT duo duo_at(const real *a, const real *b) { return duo_of(*a, *b); }
+HOT real of_a(duo x) { return x.c[0]; }
+HOT real of_b(duo x) { return x.c[1]; }
+HOT duo duo_add(duo x, duo y) { return duo_of(x.c[0] + y.c[0], x.c[1] + y.c[1]); }
+HOT duo duo_sub(duo x, duo y) { return duo_of(x.c[0] - y.c[0], x.c[1] - y.c[1]); }
+HOT duo duo_mul(duo x, duo y) { return duo_of(x.c[0] * y.c[0], x.c[1] * y.c[1]); }
+HOT duo duo_div(duo x, duo y) { return duo_of(x.c[0] / y.c[0], x.c[1] / y.c[1]); }
+HOT duo duo_root(duo x) { return duo_of(root(x.c[0]), root(x.c[1])); }
+HOT duo duo_size(duo x) { return duo_of(size(x.c[0]), size(x.c[1])); }
+HOT duo duo_larger(duo x, duo y) { return duo_of(larger(x.c[0], y.c[0]), larger(x.c[1], y.c[1])); }
+/* v where x > y, else w. */
+HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
+{
+    return duo_of(x.c[0] > y.c[0] ? v.c[0] : w.c[0], x.c[1] > y.c[1] ? v.c[1] : w.c[1]);
+}
+#endif
+
+HOT duo duo_both(real x) { return duo_of(x, x); }
+
+/* ---- a vector of each, and a map ---- */
+
+typedef struct duos {
+    duo c[DIM];
+} duos;
+
+typedef struct duo_map {
+    duo c[DIM * DIM];
+} duo_map;
+
+HOT vec vec_of_a(duos x)
+{
+    vec r;
+    EACH(r.c[i] = of_a(x.c[i]));
+    return r;
+}
+
+HOT vec vec_of_b(duos x)
+{
+    vec r;
+    EACH(r.c[i] = of_b(x.c[i]));
+    return r;
+}
+
+/* The same vector for both. */
+HOT duos duos_both(vec v)
+{
+    duos r;
+    EACH(r.c[i] = duo_both(v.c[i]));
+    return r;
+}
+
+HOT duos duos_at(const real *a, const real *b)
+{
+    duos r;
+    EACH(r.c[i] = duo_at(a + i, b + i));
+    return r;
+}
+
+HOT duos duos_add(duos x, duos y)
+{
+    EACH(x.c[i] = duo_add(x.c[i], y.c[i]));
+    return x;
+}
+
+HOT duos duos_sub(duos x, duos y)
+{
+    EACH(x.c[i] = duo_sub(x.c[i], y.c[i]));
+    return x;
+}
+
+HOT duos duos_mul(duos x, duo k)
+{
+    EACH(x.c[i] = duo_mul(x.c[i], k));
+    return x;
+}
+
+HOT duos duos_where_larger(duo x, duo y, duos v, duos w)
+{
+    EACH(v.c[i] = duo_where_larger(x, y, v.c[i], w.c[i]));
+    return v;
+}
+
+HOT duo duos_dot(duos x, duos y)
+{
+    duo r = duo_mul(x.c[0], y.c[0]);
+    REST(r = duo_add(r, duo_mul(x.c[i], y.c[i])));
+    return r;
+}
+
+HOT duo duos_dot_size(duos x, duos y)
+{
+    duo r = duo_size(duo_mul(x.c[0], y.c[0]));
+    REST(r = duo_add(r, duo_size(duo_mul(x.c[i], y.c[i]))));
+    return r;
+}
+
+HOT duo duos_peak(duos x)
+{
+    duo r = duo_size(x.c[0]);
+    REST(r = duo_larger(duo_size(x.c[i]), r));
+    return r;
+}
+
+HOT duos row_of_map(const duo_map *m, int row)
+{
+    duos r;
+    EACH(r.c[i] = m->c[DIM * row + i]);
+    return r;
+}
+
+HOT duos duos_mapped(const duo_map *m, duos x)
+{
+    duos r;
+    EACH(r.c[i] = duos_dot(row_of_map(m, i), x));
+    return r;
+}
+
+HOT duo_map duo_map_at(const real *a, const real *b)
+{
+    duo_map r;
+    for (int i = 0; i < DIM * DIM; i++) r.c[i] = duo_at(a + i, b + i);
+    return r;
+}
+
+/* The sum of the squares of its entries. */
+HOT duo square_of_duo_map(const duo_map *m)
+{
+    duo sum = duo_both(0);
+    for (int i = 0; i < DIM; i++) {
+        duo column = duo_mul(m->c[i], m->c[i]);
+        for (int j = 1; j < DIM; j++) column = duo_add(column, duo_mul(m->c[DIM * j + i], m->c[DIM * j + i]));
+        sum = i == 0 ? column : duo_add(sum, column);
+    }
+    return sum;
+}
+
+/* What rounds away in a sum. */
+HOT duo duo_lost(duo x, duo y, duo sum)
+{
+    const duo t = duo_sub(sum, x);
+    return duo_add(duo_sub(x, duo_sub(sum, t)), duo_sub(y, t));
+}
+
+#endif
