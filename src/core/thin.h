@@ -429,7 +429,7 @@ static inline void know_norms(difference *d, real of_a, real of_b)
     d->b.norm = of_b;
 }
 
-/* Neither the square of their roots nor of their radii leaves the plain. */
+/* The square whose root the doubt is made of is plain, and so are the radii. */
 HOT int are_of_plain_size(real square, const shape *a, const shape *b)
 {
     return square > 1 / PLAIN && square < PLAIN * PLAIN && a->radius >= 0 && b->radius >= 0 &&
