@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x84412ff267fa4a3f, 0x15f91a2cc5bd4720, 0x8f086d9b61c843a4};
+static const uint64_t known[3] = {0x6de4c522df537819, 0x15f91a2cc5bd4720, 0x4f9fdfba61e9f45e};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x538138fa3c6a3803, 0x69a35fca1dbfd9ed, 0x1a3f44392bccac01};
+static const uint64_t known[3] = {0x28999e7210a8c2a8, 0x69a35fca1dbfd9ed, 0x4731a6444d029b58};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x2a843ac674241a39, 0x2675328f528b3d42, 0x6f9bcfb1bc5a879f};
+static const uint64_t known[3] = {0xfb1bfdcb85ea42f5, 0x2675328f528b3d42, 0x331c9cc5990ff3b9};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x11aaa718d10e32f3, 0xdb2e8be3999ee500, 0xe077baebd02aa7d7};
+static const uint64_t known[3] = {0xf0cc02c1c909e4a7, 0xdb2e8be3999ee500, 0xc9112224368e5138};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -407,31 +407,83 @@ static void check_effort(pair *p, draws *d)
     }
 }
 
-/* Near contact v is as small as what its corners lost to rounding, and its direction noise. The normal must not be. */
+/* Near contact v is as small as what its corners lost to rounding, and its direction noise. The normal must not be.
+ * Whether the pair is that near. */
+static int check_normal(const pair *p)
+{
+    V(options) tight = default_options();
+    tight.tight = 1;
+    V(result) fast = distance_with(p, NULL), exact = distance_with(p, &tight);
+    if (!(exact.value > 0 && (double)exact.value < 100 * U * (size_of(&p->a) + size_of(&p->b)))) {
+        return 0;
+    }
+    for (int k = 0; k < DIM; k++) {
+        double off = fabs((double)fast.normal[k] - (double)exact.normal[k]);
+        if (off > 16 * U) {
+            print_error("%s: normal off by %g, %g apart\n  ", VARIANT, off, (double)exact.value);
+            print_case(stderr, "distance", &p->a, &p->b);
+            fail();
+        }
+    }
+    return 1;
+}
+
 static void normal_near_contact(void **state)
 {
     static pair p;
-    V(options) tight = default_options();
     int near = 0;
-    tight.tight = 1;
-    family = GAPS;
     (void)state;
     for (uint64_t i = 0; i < 4000; i++) {
-        draws d = draws_from(3, (uint64_t)family, i);
-        draw_pair(&d, family, &p);
-        V(result) fast = distance_with(&p, NULL), exact = distance_with(&p, &tight);
-        if (!(exact.value > 0 && (double)exact.value < 100 * U * (size_of(&p.a) + size_of(&p.b)))) {
-            continue;
+        draws d = draws_from(3, GAPS, i);
+        draw_pair(&d, GAPS, &p);
+        near += check_normal(&p);
+    }
+    assert_true(near > 100);
+}
+
+/* A simplex from its first corner along the first axis, forwards or backwards. */
+static void draw_wedge(draws *d, body *b, const real tip[DIM], double forwards)
+{
+    start_body(b, POINTS);
+    b->count = DIM + 1;
+    memcpy(b->v[0], tip, sizeof b->v[0]);
+    for (int k = 1; k <= DIM; k++) {
+        for (int i = 0; i < DIM; i++) {
+            double side = i == 0 ? forwards : i == k ? 0.5 : -0.5;
+            b->v[k][i] = (real)((double)tip[i] + side * between(d, 0.5, 1));
         }
-        near++;
+    }
+}
+
+/* Two tips that nearly meet, less apart than the rounding of a number as large as the one is: what its map and
+ * position leave of it, the other is, a little off. */
+static void normal_of_tips(void **state)
+{
+    static pair p;
+    int near = 0;
+    (void)state;
+    for (uint64_t i = 0; i < 4000; i++) {
+        draws d = draws_from(9, 0, i);
+        real tip[DIM], mate[DIM];
+        double way[DIM], gap = U * U * magnitude(&d, 1, 4);
+        memset(&p, 0, sizeof p);
+        unit(&d, way);
         for (int k = 0; k < DIM; k++) {
-            double off = fabs((double)fast.normal[k] - (double)exact.normal[k]);
-            if (off > 16 * U) {
-                print_error("%s: normal off by %g, %g apart\n  ", VARIANT, off, (double)exact.value);
-                print_case(stderr, "distance", &p.a, &p.b);
-                fail();
-            }
+            tip[k] = (real)between(&d, -1, 1);
         }
+        draw_wedge(&d, &p.b, tip, 1);
+        turn(&d, &p.b, magnitude(&d, -4, 0) / 10);
+        for (int k = 0; k < DIM; k++) {
+            double at = 0;
+            for (int j = 0; j < DIM; j++) {
+                at += (double)p.b.pose.m[k * DIM + j] * (double)tip[j];
+            }
+            p.b.pose.p[k] = (real)-at;
+            mate[k] = (real)(at + (double)p.b.pose.p[k] - gap * (k ? way[k] : fabs(way[k])));
+        }
+        draw_wedge(&d, &p.a, mate, -1);
+        bind_pair(&p);
+        near += check_normal(&p);
     }
     assert_true(near > 100);
 }
@@ -471,6 +523,7 @@ int main(void)
         cmocka_unit_test(extreme_unit),
         cmocka_unit_test(effort),
         cmocka_unit_test(normal_near_contact),
+        cmocka_unit_test(normal_of_tips),
     };
     return cmocka_run_group_tests_name("laws of " VARIANT, tests, NULL, NULL);
 }

@@ -12,6 +12,9 @@
 /* So often another simplex is tried. */
 #define FINE_ROUNDS 4
 
+/* By so much at most, as its bound has it, which is far above what it is, may the way be turned that is the normal. */
+#define MOST_TURN (4096 * UNIT)
+
 /* ---- the way between the sets ---- */
 
 /* A vector to twice the digits. */
@@ -309,7 +312,7 @@ static APART int tell_pair(search *q, const shape *a, const shape *b, const goal
     real upper = -below_gap((twin){-l.high, -l.low}, high, -radius_a, -radius_b);
     int deep = g->deep && upper < 0; /* but only the radii overlap */
     if (!(lower > 0) && !(upper < 0 && (!g->deep || l.high > 2 * low))) return 0;
-    if (!g->sign_only && !(low + high <= UNIT / 4 * size_at(q))) return 0;
+    if (!g->sign_only && !(low + high <= UNIT / 4 * size_at(q) && high <= MOST_TURN * l.high)) return 0;
     r->value = gap_of(&q->d, l, a, b);
     r->lower = rescaled(lower, q->d.unscale, -1);
     r->upper = rescaled(upper, q->d.unscale, 1);

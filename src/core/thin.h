@@ -60,6 +60,9 @@ static inline real fall_along(real rise, real err, real behind, real ahead)
  * of the quotient; of a segment its ends' difference 1 besides. */
 static inline real lost_of_rise(real edge, real rise) { return UNIT * (7 * edge + 4 * size(rise)); }
 
+/* By so many roundings of the edges a corner may seem to lie lower than the pair, which is nearest then. */
+#define LIES (4 * UNIT)
+
 /* ---- points and segments ---- */
 
 /* One of each body, a point or a segment. */
@@ -192,6 +195,42 @@ HOT real falls_along(duo rise, duo err, duo share)
     return of_a(fall) + of_b(fall);
 }
 
+/* How far ends may lie below the points along the way between these. */
+HOT void look_along_sticks(const sticks *k, duo share, duo edge, sight_of_two *e)
+{
+    const duo toward = duo_of(1, -1);
+    const duo rise = duo_div(duo_mul(duos_dot(k->way, duos_both(e->v)), toward), duo_both(e->l));
+    e->fall = falls_along(rise, lost_of_rises(edge, rise), share);
+    e->lies = falls_along(rise, duo_both(0), share);
+}
+
+/* So many roundings of the pair may the sticks' points be moved, and by no more than such a share of them; one that is
+ * nearer to an end stays where it is. */
+#define MOST_SHIFT (8 * UNIT)
+#define LEAST_SHARE ((real)0x1p-10)
+
+/* Where shares round, the way between the points is turned by a rounding of the edges over how long it is, and an end
+ * may seem to lie lower. So it is made square once more to what it is to be square to: the points are moved by less
+ * than their coordinates can show, which counts to what the corner lost. */
+static APART sight_of_two shifted(const difference *d, sticks own, duo share, duo edge, sight_of_two e)
+{
+    const sticks *k = &own;
+    const vec way_a = vec_of_a(k->way), way_b = vec_of_b(k->way);
+    const real s = of_a(share), t = of_b(share), av = dot(way_a, e.v), bv = dot(way_b, e.v);
+    const int free_a = s > 0 && s<1, free_b = t> 0 && t < 1;
+    const real ab = dot(way_a, way_b), on = free_b ? ab * of_b(k->per) : 0;
+    const real ds = free_a ? ((free_b ? bv * on : 0) - av) / (of_a(k->ll) - on * ab) : 0;
+    const real dt = free_b ? (ab * ds + bv) * of_b(k->per) : 0;
+    const vec shift = sub(mul(way_a, ds), mul(way_b, dt));
+    if (!(size(ds) < LEAST_SHARE && size(dt) < LEAST_SHARE)) return e;
+    if (!(spread(shift) <= MOST_SHIFT / GLANCE_DOUBT * d->doubt)) return e;
+    e.low = add(e.low, shift);
+    e.v = add(e.w, e.low);
+    e.l = length(e.v);
+    look_along_sticks(k, share, edge, &e);
+    return e;
+}
+
 /* What only tells whether they meet needs no more digits. */
 HOT void sight_sticks(const difference *d, const goal *g, const sticks *k, sight_of_two *e)
 {
@@ -208,12 +247,10 @@ HOT void sight_sticks(const difference *d, const goal *g, const sticks *k, sight
     e->v = exactly ? add(e->w, e->low) : e->w;
     e->l = are_of_length(k, d) ? length(e->v) : 0;
     if (exactly) edge = edges_of(k);
-    const duo toward = duo_of(1, -1);
-    const duo rise = duo_div(duo_mul(duos_dot(k->way, duos_both(e->v)), toward), duo_both(e->l));
-    e->fall = falls_along(rise, lost_of_rises(edge, rise), share);
-    e->lies = falls_along(rise, duo_both(0), share);
+    look_along_sticks(k, share, edge, e);
     e->edge = of_a(edge) + of_b(edge);
     e->off = UNIT * e->edge * (real)1.125;
+    if (exactly && !(e->lies <= LIES * e->edge)) *e = shifted(d, *k, share, edge, *e);
 }
 
 /* ---- a point and a box ---- */
@@ -333,9 +370,6 @@ static inline void sight_box(const difference *d, const goal *g, real level, sig
 }
 
 /* ---- telling ---- */
-
-/* By so many roundings of the edges a corner may seem to lie lower than the pair, which is nearest then. */
-#define LIES (4 * UNIT)
 
 /* So many roundings of its size a bracket of the depth may be wide. */
 #define BROAD (16 * UNIT)
