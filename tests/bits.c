@@ -23,7 +23,7 @@ static const uint64_t known[3] = {0x28999e7210a8c2a8, 0x69a35fca1dbfd9ed, 0x4731
 static const uint64_t known[3] = {0xfb1bfdcb85ea42f5, 0x2675328f528b3d42, 0x331c9cc5990ff3b9};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xf0cc02c1c909e4a7, 0xdb2e8be3999ee500, 0xc9112224368e5138};
+static const uint64_t known[3] = {0xf0cc02c1c909e4a7, 0x40b7ef70cb8899c0, 0xc9112224368e5138};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

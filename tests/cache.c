@@ -398,8 +398,8 @@ static void of_points_edited(void **state)
 }
 
 #if DIM == 2
-/* Fewer of them, under the same name, one of which stands where a cache has one of many: it gets none from elsewhere.
- */
+/* Fewer of them, under the same name, one of which stands where a cache has one of many: it gets none from elsewhere,
+ * and the answer is that of today's. */
 static void of_fewer_points(void **state)
 {
     static real room[1 + 8][DIM]; /* in front of the corners is something else */
@@ -408,7 +408,7 @@ static void of_fewer_points(void **state)
         draws d = draws_from(6, 11, i);
         V(points) points = {room[1], 8, 0, 0, 3};
         V(options) o = default_options();
-        V(result) r;
+        V(result) r, cold;
         start_body(&p.a, POINTS);
         draw_hull(&d, &p.b, 3, 1);
         p.a.count = 3;
@@ -427,6 +427,8 @@ static void of_fewer_points(void **state)
             memset(p.b.pose.p, 0, sizeof p.b.pose.p);
             move(&p.b, dir, 3);
             assert_true(V(distance)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+            assert_true(V(distance)(&p.a.shape, &p.b.shape, NULL, &cold) >= 0);
+            assert_true(r.lower <= cold.upper && cold.lower <= r.upper);
             points.count = 3;
             memcpy(room[1], cache.a[0], sizeof room[1]);
         }

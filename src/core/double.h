@@ -34,10 +34,25 @@ HOT dvec dseconds(dvec a, dvec b) { return (dvec){_mm_unpackhi_pd(a.c, b.c)}; }
 HOT dvec dsizes(dvec a) { return (dvec){_mm_andnot_pd(_mm_set1_pd(-0.0), a.c)}; }
 /* a where that is smaller, or b. */
 HOT dvec dsmaller(dvec a, dvec b) { return (dvec){_mm_min_pd(a.c, b.c)}; }
-/* Bit i: number i of a is no larger than that of b. */
-HOT unsigned dwithin(dvec a, dvec b) { return (unsigned)_mm_movemask_pd(_mm_cmple_pd(a.c, b.c)); }
+HOT dvec dlarger(dvec a, dvec b) { return (dvec){_mm_max_pd(a.c, b.c)}; }
+HOT dvec droots(dvec a) { return (dvec){_mm_sqrt_pd(a.c)}; }
+/* x where a is below most, or 0. */
+HOT dvec dif_below(dvec a, double most, double x)
+{
+    return (dvec){_mm_and_pd(_mm_cmplt_pd(a.c, _mm_set1_pd(most)), _mm_set1_pd(x))};
+}
+/* The first of eight that is no larger than those of x; the last where none is. */
+HOT unsigned dfirst_within(const dvec a[4], dvec x)
+{
+    __m128i within[4], pairs[2];
+    for (int i = 0; i < 4; i++) within[i] = _mm_castpd_si128(_mm_cmple_pd(a[i].c, x.c));
+    pairs[0] = _mm_packs_epi32(within[0], within[1]);
+    pairs[1] = _mm_packs_epi32(within[2], within[3]);
+    return first_bit((unsigned)_mm_movemask_epi8(_mm_packs_epi16(pairs[0], pairs[1])) | 1u << 15) / 2;
+}
+HOT dvec dswapped(dvec a) { return (dvec){_mm_shuffle_pd(a.c, a.c, 1)}; }
 /* Square to it, turned to the left. */
-HOT dvec dturned(dvec a) { return (dvec){_mm_xor_pd(_mm_shuffle_pd(a.c, a.c, 1), _mm_setr_pd(-0.0, 0))}; }
+HOT dvec dturned(dvec a) { return (dvec){_mm_xor_pd(dswapped(a).c, _mm_setr_pd(-0.0, 0))}; }
 #else
 typedef struct dvec {
     double c[2];
@@ -69,7 +84,19 @@ HOT dvec dsmaller(dvec a, dvec b)
 {
     return dvec_of(a.c[0] < b.c[0] ? a.c[0] : b.c[0], a.c[1] < b.c[1] ? a.c[1] : b.c[1]);
 }
-HOT unsigned dwithin(dvec a, dvec b) { return (unsigned)(a.c[0] <= b.c[0]) | (unsigned)(a.c[1] <= b.c[1]) << 1; }
+HOT dvec dlarger(dvec a, dvec b)
+{
+    return dvec_of(a.c[0] > b.c[0] ? a.c[0] : b.c[0], a.c[1] > b.c[1] ? a.c[1] : b.c[1]);
+}
+HOT dvec droots(dvec a) { return dvec_of(sqrt(a.c[0]), sqrt(a.c[1])); }
+HOT dvec dif_below(dvec a, double most, double x) { return dvec_of(a.c[0] < most ? x : 0, a.c[1] < most ? x : 0); }
+HOT unsigned dfirst_within(const dvec a[4], dvec x)
+{
+    unsigned i = 0;
+    while (i < 7 && !(a[i / 2].c[i % 2] <= x.c[i % 2])) i++;
+    return i;
+}
+HOT dvec dswapped(dvec a) { return dvec_of(a.c[1], a.c[0]); }
 HOT dvec dturned(dvec a) { return dvec_of(-a.c[1], a.c[0]); }
 #endif
 
@@ -107,11 +134,7 @@ HOT dvec dpull(const dvec row[2], dvec v)
 }
 
 /* At the edge of the floats where these end before it does. */
-HOT dvec dinto_range(dvec a)
-{
-    a = dsmaller(a, dboth((double)REAL_MAX));
-    return dnegative(dsmaller(dnegative(a), dboth((double)REAL_MAX)));
-}
+HOT dvec dinto_range(dvec a) { return dlarger(dsmaller(a, dboth((double)REAL_MAX)), dboth(-(double)REAL_MAX)); }
 
 HOT double dleast(double x, double y) { return x < y ? x : y; }
 
@@ -119,26 +142,22 @@ HOT double dleast(double x, double y) { return x < y ? x : y; }
 HOT double dspread(const real *c) { return fabs((double)c[0]) + fabs((double)c[1]); }
 
 /* Rounded as sqrt is, without a call (real.h). */
-HOT double droot(double x)
+HOT double droot(double x) { return dfirst(droots(dboth(x))); }
+
+HOT dvec dlengths(dvec a, dvec b)
 {
-#if HAS_LANES
-    const __m128d r = _mm_set_sd(x);
-    return _mm_cvtsd_f64(_mm_sqrt_sd(r, r));
-#else
-    return sqrt(x);
-#endif
+    const dvec p = dtimes(a, a), q = dtimes(b, b);
+    return droots(dadd(dfirsts(p, q), dseconds(p, q)));
 }
 
 HOT double dlength(dvec a) { return droot(ddot(a, a)); }
 
-/* A float below, at most two of its steps. */
-HOT real dbelow(double x)
+/* Less by as much as rounding them to float may add, and at most two of its steps. */
+HOT dvec dbelow(dvec x)
 {
-    const double far = fabs(x), down = far * (0x1p-24 + 0x1p-44);
-    return (real)(x - (far >= (double)REAL_MIN ? down : down + (double)TINY));
+    const dvec far = dsizes(x), step = dif_below(far, (double)REAL_MIN, (double)TINY);
+    return dsub(x, dadd(dtimes(far, dboth(0x1p-24 + 0x1p-44)), step));
 }
-
-HOT real dabove(double x) { return -dbelow(-x); }
 
 #endif
 #endif

@@ -20,11 +20,11 @@
 enum halt { LOST, SHOWN, FOREMOST, AROUND };
 
 /* Fewer than a run, again and again. */
-static APART void fill_run(const list *l, real run[RUN * DIM])
+static APART void fill_run(const list of, real run[RUN * DIM])
 {
-    for (size_t i = 0, k = 0; i < RUN; i++, k = k + 1 < l->count ? k + 1 : 0) {
-        run[DIM * i] = l->v[l->step * k];
-        run[DIM * i + 1] = l->v[l->step * k + 1];
+    for (size_t i = 0, k = 0; i < RUN; i++, k = k + 1 < of.count ? k + 1 : 0) {
+        run[DIM * i] = of.v[of.step * k];
+        run[DIM * i + 1] = of.v[of.step * k + 1];
     }
 }
 
@@ -42,122 +42,155 @@ static APART void fill_run(const list *l, real run[RUN * DIM])
 
 /* ---- the bodies ---- */
 
+/* The corners as they are given, in its own coordinates. */
+typedef struct flat_list {
+    list from;
+    double reach; /* how far they are from their origin, at most; */
+    real limit;   /* no coordinate is above this */
+} flat_list;
+
 typedef struct flat_body {
-    real at[DIM][PLACES]; /* the corners, in its own coordinates: the list's first run and its last, as a cluster has
-                             them (planar.h) */
-    dvec row[DIM], p;     /* its map by rows, and where it is; */
-    double far;           /* no point of it is farther from there */
-    list from;            /* the corners as they are given; */
-    double reach;         /* how far these are from their origin, at most; */
-    real limit;           /* no coordinate is above this */
-    real run[RUN * DIM];  /* those of a box, or what stands there again and again */
+    real at[DIM][PLACES];      /* the list's first run and its last, as a cluster has them (planar.h); */
+    double share[DIM][PLACES]; /* what each of these corners adds to one of the difference; */
+    int many;                  /* there are more than a run; */
+    dvec row[DIM], p;          /* its map by rows, and where it is */
 } flat_body;
 
-/* A box's corners in order. */
-HOT void spell_box(const box *k, flat_body *s)
+/* The corners, those that are not listed spelled into run. 0: they are not known, or there are too many, or the data
+ * are none. */
+HOT int list_flat(const shape *k, real run[RUN * DIM], flat_list *s)
 {
-    for (int i = 0; i < RUN; i++) {
-        s->run[DIM * i] = i & 1 ? k->half[0] : -k->half[0];
-        s->run[DIM * i + 1] = i & 2 ? k->half[1] : -k->half[1];
-    }
-    s->from = (list){s->run, RUN, DIM, 0};
-    s->reach = (double)k->half[0] + (double)k->half[1];
-}
-
-/* The corners, and how far they reach. 0: they are not known, or there are too many, or the data are none. */
-HOT int list_flat(const shape *k, flat_body *s)
-{
-    static const real nothing[DIM] = {0};
-    s->limit = REAL_MAX;
     if (k->support == pub(support_points)) {
         const points *p = k->data;
         if (!p || !p->v) return 0;
         const size_t step = stride_of(p);
         if (p->count - 1 > PLACES - 1 || step < DIM || p->stride % sizeof(real) != 0 || !(p->reach > TINY)) return 0;
-        s->from = (list){p->v, p->count, step, p->reach};
-        s->reach = (double)p->reach;
-        s->limit = smaller(p->reach * (1 + 16 * UNIT), REAL_MAX);
-    } else if (k->support == pub(support_segment)) {
+        *s = (flat_list){{p->v, p->count, step, 0}, (double)p->reach, smaller(p->reach * (1 + 16 * UNIT), REAL_MAX)};
+        return 1;
+    }
+    s->from = (list){run, RUN, DIM, 0};
+    s->limit = REAL_MAX;
+    if (k->support == pub(support_segment)) {
         const segment *e = k->data;
         if (!e) return 0;
-        s->from = (list){e->v[0], 2, DIM, 0};
+        for (int i = 0; i < RUN; i += 2) memcpy(run + DIM * i, e->v, sizeof e->v);
         s->reach = -dleast(-dspread(e->v[0]), -dspread(e->v[1]));
     } else if (k->support == pub(support_box)) {
         const box *e = k->data;
         if (!e || !(e->half[0] >= 0 && e->half[1] >= 0)) return 0;
-        spell_box(e, s);
+        for (int i = 0; i < RUN; i++) {
+            run[DIM * i] = i & 1 ? e->half[0] : -e->half[0];
+            run[DIM * i + 1] = i & 2 ? e->half[1] : -e->half[1];
+        }
+        s->reach = (double)e->half[0] + (double)e->half[1];
     } else {
-        s->from = (list){nothing, 1, DIM, 0};
+        memset(run, 0, sizeof(real) * RUN * DIM);
         s->reach = 0;
         return k->support == pub(support_origin);
     }
     return 1;
 }
 
-/* A run of corners. 0: one is none, or beyond the limit. */
-HOT int take_run(const real *x, size_t step, flat_body *s, size_t at)
-{
-    int fit = (1 << LANES) - 1;
-    for (size_t j = at; j < at + RUN; j += LANES, x += LANES * step) {
-        lanes c[DIM];
-        load_lanes(x, step, c);
-        EACH(fit &= any_as_large(in_all(s->limit), sizes(c[i])); part_lanes(c[i], s->at[i] + j));
-    }
-    return fit == (1 << LANES) - 1;
-}
-
-/* All of them, and the pose. 0: one is none, or beyond the limit. */
-HOT int take_flat(const shape *k, flat_body *s)
+/* Its pose. No point of it is farther from there than what is returned. */
+HOT double pose_flat(const shape *k, double reach, flat_body *s)
 {
     static const pose none = {{1, 0, 0, 1}, {0, 0}};
     const pose *o = k->pose ? k->pose : &none;
-    const list *l = &s->from;
     s->row[0] = dload(o->m);
     s->row[1] = dload(o->m + DIM);
     s->p = dload(o->p);
     const dvec far = dadd(dsizes(s->row[0]), dsizes(s->row[1]));
-    s->far = (dfirst(far) + dsecond(far)) * (s->reach * 1.5);
-    if (l->count >= RUN)
-        return take_run(l->v, l->step, s, 0) & take_run(l->v + (l->count - RUN) * l->step, l->step, s, RUN);
-    fill_run(l, s->run);
-    return take_run(s->run, DIM, s, 0) & take_run(s->run, DIM, s, RUN);
+    return (dfirst(far) + dsecond(far)) * (reach * 1.5);
+}
+
+/* A run of corners from place at on, and what they add to those of a - b: a's as they are placed, b's taken from c. Bit
+ * for bit, which of their numbers are within the limit. */
+HOT lanes take_run(const real *x, size_t step, lanes limit, flat_body *s, size_t at, int is_b, dvec c)
+{
+    const dvec r = s->row[0], t = s->row[1], rx = dfirsts(r, r), ry = dseconds(r, r), tx = dfirsts(t, t),
+               ty = dseconds(t, t), cx = dfirsts(c, c), cy = dseconds(c, c);
+    lanes fit = no_larger(limit, limit);
+    for (size_t j = at; j < at + RUN; j += LANES, x += LANES * step) {
+        lanes l[DIM];
+        load_lanes(x, step, l);
+        EACH(fit = in_both(fit, no_larger(sizes(l[i]), limit)); part_lanes(l[i], s->at[i] + j));
+    }
+    for (size_t j = at; j < at + RUN; j += 2) {
+        const dvec first = dload(s->at[0] + j), second = dload(s->at[1] + j);
+        const dvec u = dadd(dtimes(rx, first), dtimes(ry, second)), v = dadd(dtimes(tx, first), dtimes(ty, second));
+        dpart(s->share[0] + j, is_b ? dsub(cx, u) : u);
+        dpart(s->share[1] + j, is_b ? dsub(cy, v) : v);
+    }
+    return fit;
+}
+
+/* All of them. 0: one is none, or beyond the limit. */
+HOT int take_flat(const flat_list *l, real run[RUN * DIM], flat_body *s, int is_b, dvec c)
+{
+    const lanes limit = in_all(l->limit);
+    const real *x = l->from.v;
+    size_t step = l->from.step;
+    s->many = l->from.count > RUN;
+    if (l->from.count < RUN) {
+        fill_run(l->from, run);
+        x = run;
+        step = DIM;
+    }
+    lanes fit = take_run(x, step, limit, s, 0, is_b, c);
+    if (s->many) fit = in_both(fit, take_run(x + (l->from.count - RUN) * step, step, limit, s, RUN, is_b, c));
+    return holds_in_all(fit);
 }
 
 HOT dvec corner_in_flat(const flat_body *s, unsigned at) { return dvec_of((double)s->at[0][at], (double)s->at[1][at]); }
 
-HOT dvec place_in_flat(const flat_body *s, dvec x) { return ddots(s->row[0], s->row[1], x); }
+HOT dvec place_in_flat(const flat_body *s, unsigned at) { return ddots(s->row[0], s->row[1], corner_in_flat(s, at)); }
 
-/* The first of the corners that are lowest along v. */
-HOT unsigned lowest_in_flat(const flat_body *s, dvec v)
+HOT dvec share_in_flat(const flat_body *s, unsigned at) { return dvec_of(s->share[0][at], s->share[1][at]); }
+
+/* The first of the corners whose shares are lowest along a way, that is given as its parts, each side by side. */
+HOT unsigned lowest_in_flat(const flat_body *s, dvec x, dvec y)
 {
-    const dvec way = dpull(s->row, v), x = dfirsts(way, way), y = dseconds(way, way);
     dvec heights[PLACES / 2], least;
-    unsigned lowest = 1u << (PLACES - 1); /* where no height is a number */
-    for (int i = 0; i < PLACES; i += 2)
-        heights[i / 2] = dadd(dtimes(dload(s->at[0] + i), x), dtimes(dload(s->at[1] + i), y));
-    least = dsmaller(dsmaller(heights[0], heights[1]), dsmaller(heights[2], heights[3]));
-    least = dsmaller(dseconds(least, least), dfirsts(least, least));
-    least = dfirsts(least, least);
-    for (int i = 0; i < PLACES; i += 2) lowest |= dwithin(heights[i / 2], least) << i;
-    return first_bit(lowest);
+    for (int i = 0; i < RUN; i += 2)
+        heights[i / 2] = dadd(dtimes(djoin(s->share[0] + i), x), dtimes(djoin(s->share[1] + i), y));
+    least = dsmaller(heights[0], heights[1]);
+    heights[2] = heights[0];
+    heights[3] = heights[1];
+    if (s->many) {
+        for (int i = RUN; i < PLACES; i += 2)
+            heights[i / 2] = dadd(dtimes(djoin(s->share[0] + i), x), dtimes(djoin(s->share[1] + i), y));
+        least = dsmaller(least, dsmaller(heights[2], heights[3]));
+    }
+    return dfirst_within(heights, dsmaller(least, dswapped(least)));
 }
 
 /* How far the body reaches, as its support says. */
-static real reach_of_flat(const flat_body *s, const shape *of)
+static real reach_of_flat(const shape *of)
 {
+    static const real nothing[DIM] = {0};
     if (of->support == pub(support_box)) return at_most(load(((const box *)of->data)->half));
-    return s->from.reach != 0 ? s->from.reach : reach_of(s->from.v, s->from.count);
+    if (of->support == pub(support_points)) return ((const points *)of->data)->reach;
+    return of->support == pub(support_segment) ? reach_of(((const segment *)of->data)->v[0], 2) : reach_of(nothing, 1);
 }
 
 /* The pair is too large for a frame (minkowski.h): such are refused, all of them. */
-static APART int is_too_large(const flat_body *s, const flat_body *t, const shape *a, const shape *b)
+static APART int is_too_large(const shape *a, const shape *b)
 {
-    const real far_a = reach_of_flat(s, a) * (a->pose ? stretch(a->pose->m) : 1);
-    const real far_b = reach_of_flat(t, b) * (b->pose ? stretch(b->pose->m) : 1);
+    const real far_a = reach_of_flat(a) * (a->pose ? stretch(a->pose->m) : 1);
+    const real far_b = reach_of_flat(b) * (b->pose ? stretch(b->pose->m) : 1);
     return !(far_a + far_b + spread(offset(a->pose, b->pose)) <= REAL_MAX / 4);
 }
 
 /* ---- the front ---- */
+
+/* Two of them. */
+typedef struct flat {
+    flat_body a, b;
+    dvec c;        /* from b's position to a's */
+    double blur;   /* what bounds are off at most; */
+    double wide;   /* what they may be apart; */
+    double radius; /* of both */
+} flat;
 
 /* A corner of the difference, and where those of the bodies stand, as a spot of planar.h has it. */
 typedef struct dspot {
@@ -166,135 +199,116 @@ typedef struct dspot {
 } dspot;
 
 /* What is nearest to the origin so far, as the front of planar.h. */
-typedef struct flat {
-    flat_body a, b;
-    dvec c;        /* from a's position to b's */
-    double blur;   /* what bounds are off at most; */
-    double wide;   /* what they may be apart; */
-    double radius; /* of both */
+typedef struct dfront {
     dspot p, q, last;
     int n;
-    dvec v;                    /* the corner; or square to the edge from p to q, away from the origin */
-    dvec edge_a, edge_b, edge; /* this edge, of the bodies and of the difference */
-    dvec way;                  /* along which the last corner has been asked for, */
-    double height;             /* so high it lies there, times the way's length; */
+    dvec v;        /* the corner; or square to the edge from p to q, away from the origin */
+    dvec way;      /* along which the last corner has been asked for, */
+    double height; /* so high it lies there, times the way's length; */
     int steps, around;
-} flat;
+} dfront;
 
 static inline unsigned at_in_a(unsigned at) { return at % PLACES; }
 static inline unsigned at_in_b(unsigned at) { return at / PLACES % PLACES; }
 
-HOT dspot dspot_at(const flat *f, unsigned at)
+HOT dspot dspot_of(const flat *f, unsigned of_a, unsigned of_b)
 {
-    const dvec x = place_in_flat(&f->a, corner_in_flat(&f->a, at_in_a(at)));
-    const dvec y = place_in_flat(&f->b, corner_in_flat(&f->b, at_in_b(at)));
-    return (dspot){dsub(x, dadd(y, f->c)), at};
+    return (dspot){dadd(share_in_flat(&f->a, of_a), share_in_flat(&f->b, of_b)), of_a + PLACES * of_b};
 }
 
 /* The corner of the difference that is least along v. */
-HOT void ask_flat(flat *f)
+HOT void ask_flat(const flat *f, dfront *k)
 {
-    const unsigned of_a = lowest_in_flat(&f->a, f->v), of_b = lowest_in_flat(&f->b, dnegative(f->v));
-    f->way = f->v;
-    f->last = dspot_at(f, of_a + PLACES * of_b);
-    f->height = ddot(f->way, f->last.w);
-    f->steps++;
+    const dvec x = dfirsts(k->v, k->v), y = dseconds(k->v, k->v);
+    k->way = k->v;
+    k->last = dspot_of(f, lowest_in_flat(&f->a, x, y), lowest_in_flat(&f->b, x, y));
+    k->height = ddot(k->way, k->last.w);
+    k->steps++;
 }
 
-HOT void stand_on_dspot(flat *f, dspot p)
+HOT void stand_on_dspot(dfront *k, dspot p)
 {
-    f->p = f->q = p;
-    f->n = 1;
-    f->v = p.w;
+    k->p = k->q = p;
+    k->n = 1;
+    k->v = p.w;
 }
 
-HOT dvec way_in_flat(const flat_body *s, unsigned from, unsigned to)
+HOT void stand_between(dfront *k, dspot p, dspot q)
 {
-    return place_in_flat(s, dsub(corner_in_flat(s, to), corner_in_flat(s, from)));
-}
-
-HOT void stand_between(flat *f, dspot p, dspot q)
-{
-    f->edge_a = way_in_flat(&f->a, at_in_a(p.at), at_in_a(q.at));
-    f->edge_b = way_in_flat(&f->b, at_in_b(p.at), at_in_b(q.at));
-    f->edge = dsub(f->edge_a, f->edge_b);
-    const dvec square = dturned(f->edge);
-    f->v = ddot(square, p.w) < 0 ? dnegative(square) : square;
-    f->p = p;
-    f->q = q;
-    f->n = 2;
+    const dvec square = dturned(dsub(q.w, p.w));
+    k->v = ddot(square, p.w) < 0 ? dnegative(square) : square;
+    k->p = p;
+    k->q = q;
+    k->n = 2;
 }
 
 /* Takes in the corner asked for last, as turn_front does. 0: with the edge it holds the origin. */
-HOT int turn_flat(flat *f)
+HOT int turn_flat(dfront *k)
 {
-    const dspot p = f->p, q = f->q, last = f->last;
+    const dspot p = k->p, q = k->q, last = k->last;
     const dvec left = dsub(p.w, last.w);
-    if (f->n == 0) {
-        stand_on_dspot(f, last);
-    } else if (f->n == 1) {
+    if (k->n == 0) {
+        stand_on_dspot(k, last);
+    } else if (k->n == 1) {
         const double from = ddot(p.w, left), to = ddot(last.w, left);
-        if (from > 0 && to < 0) stand_between(f, p, last);
-        else stand_on_dspot(f, from > 0 ? last : p);
+        if (from > 0 && to < 0) stand_between(k, p, last);
+        else stand_on_dspot(k, from > 0 ? last : p);
     } else {
         const dvec right = dsub(q.w, last.w);
         const double turn = dcross(left, right) < 0 ? -1 : 1;
         const int beyond_left = dcross(last.w, left) * turn<0, beyond_right = dcross(last.w, right) * turn> 0;
         if (!beyond_left && !beyond_right) return 0;
-        if (beyond_left && ddot(last.w, left) < 0) stand_between(f, p, last);
-        else if (beyond_right && ddot(last.w, right) < 0) stand_between(f, q, last);
-        else stand_on_dspot(f, last);
+        if (beyond_left && ddot(last.w, left) < 0) stand_between(k, p, last);
+        else if (beyond_right && ddot(last.w, right) < 0) stand_between(k, q, last);
+        else stand_on_dspot(k, last);
     }
     return 1;
 }
 
 /* ---- what a cache holds ---- */
 
-static inline uint32_t dhint_of(const flat *f)
+static inline uint32_t dhint_of(const dfront *k)
 {
-    uint32_t r = f->p.at;
-    if (f->n > 1) r |= f->q.at << 8;
-    if (f->around) r |= f->last.at << 8 * f->n;
+    uint32_t r = k->p.at;
+    if (k->n > 1) r |= k->q.at << 8;
+    if (k->around) r |= k->last.at << 8 * k->n;
     return r;
 }
 
-/* It holds them already, as has been seen. */
-static inline int is_kept_flat(const cache *own, const flat *f)
+static APART void keep_flat(cache *own, const flat *f, uint32_t count, uint32_t hint, const shape *a, const shape *b)
 {
-    return own->count == (uint32_t)(f->n + f->around) && own->reserved == dhint_of(f);
-}
-
-static APART void keep_flat(cache *own, const flat *f, const shape *a, const shape *b)
-{
-    uint32_t hint = dhint_of(f);
-    const uint32_t count = (uint32_t)(f->n + f->around);
     own->count = count;
     own->reserved = hint;
     for (uint32_t i = 0; i < count; i++, hint >>= 8) {
         dstore(own->a[i], corner_in_flat(&f->a, at_in_a(hint)));
         dstore(own->b[i], corner_in_flat(&f->b, at_in_b(hint)));
     }
-    own->reach_a = reach_of_flat(&f->a, a);
-    own->reach_b = reach_of_flat(&f->b, b);
+    own->reach_a = reach_of_flat(a);
+    own->reach_b = reach_of_flat(b);
     own->support[0] = a->support;
     own->support[1] = b->support;
     own->data[0] = a->data;
     own->data[1] = b->data;
 }
 
+/* The corner stands there, as it did. */
+HOT int is_there(const flat_body *s, unsigned at, const real was[DIM])
+{
+    return (s->many || at < RUN) && dsame(corner_in_flat(s, at), dload(was));
+}
+
 /* From the corners of the last query, if they stand where they did. */
-HOT void recall_flat(flat *f, const cache *from)
+HOT void recall_flat(const flat *f, dfront *k, const cache *from)
 {
     uint32_t hint = from->reserved;
     for (uint32_t i = 0; i < from->count; i++, hint >>= 8) {
-        const unsigned at = hint % (PLACES * PLACES);
-        f->last = dspot_at(f, at);
-        if (!dsame(corner_in_flat(&f->a, at_in_a(at)), dload(from->a[i])) ||
-            !dsame(corner_in_flat(&f->b, at_in_b(at)), dload(from->b[i]))) {
-            f->n = 0;
+        const unsigned of_a = at_in_a(hint), of_b = at_in_b(hint);
+        if (!is_there(&f->a, of_a, from->a[i]) || !is_there(&f->b, of_b, from->b[i])) {
+            k->n = 0;
             return;
         }
-        turn_flat(f);
+        k->last = dspot_of(f, of_a, of_b);
+        turn_flat(k);
     }
 }
 
@@ -312,19 +326,21 @@ typedef struct dsight {
 
 /* The bracket, the radii taken off; of the points b's is a's where the bodies meet. 0: in float it does not say whether
  * they do, and nothing is changed. */
-HOT int spell_flat(const flat *f, const dsight *s, double lower, double upper, double value, int apart, result *r)
+HOT int spell_flat(const flat *f, const dfront *k, const dsight *s, double lower, double upper, double value, int apart,
+                   result *r)
 {
-    const real low = dbelow(lower), high = upper > 0 ? dabove(upper) : smaller(dabove(upper), 0);
     const dvec x = dinto_range(dadd(s->a, f->a.p));
-    if (!(low > 0 || upper <= 0) || !(lower >= -BROADEST && upper <= BROADEST)) return 0;
-    r->lower = low;
-    r->upper = high;
+    real bounds[2]; /* the upper one's sign turned */
+    dstore(bounds, dbelow(dvec_of(lower, -upper)));
+    if (!(bounds[0] > 0 || upper <= 0) || !(lower >= -BROADEST && upper <= BROADEST)) return 0;
+    r->lower = bounds[0];
+    r->upper = upper > 0 ? -bounds[1] : smaller(-bounds[1], 0);
     r->value = (real)value;
     dstore(r->point_a, x);
     dstore(r->point_b, apart ? dinto_range(dadd(s->b, f->b.p)) : x);
     dstore(r->normal, dnegative(dmul(s->v, s->per)));
-    r->steps = f->steps;
-    r->supports = 2 * f->steps;
+    r->steps = k->steps;
+    r->supports = 2 * k->steps;
     r->reserved = 0;
     return 1;
 }
@@ -343,58 +359,61 @@ HOT void move_flat(dsight *s, double of_a, double of_b, int meet, int deep)
 }
 
 /* The nearest point of the front. */
-HOT void sight_flat(const flat *f, dsight *s)
+HOT void sight_flat(const flat *f, const dfront *k, dsight *s)
 {
-    const dvec x = corner_in_flat(&f->a, at_in_a(f->p.at)), y = corner_in_flat(&f->b, at_in_b(f->p.at));
-    s->a = place_in_flat(&f->a, x);
-    s->b = place_in_flat(&f->b, y);
-    s->way = f->p.w;
-    if (f->n == 1) return;
-    const double share = -ddot(f->p.w, f->edge) / ddot(f->edge, f->edge);
+    s->a = place_in_flat(&f->a, at_in_a(k->p.at));
+    s->b = place_in_flat(&f->b, at_in_b(k->p.at));
+    s->way = k->p.w;
+    if (k->n == 1) return;
+    const dvec edge = dsub(k->q.w, k->p.w);
+    const double share = -ddot(k->p.w, edge) / ddot(edge, edge);
     const double part = share > 0 ? share < 1 ? share : 1 : 0;
-    s->a = dadd(s->a, dmul(f->edge_a, part));
-    s->b = dadd(s->b, dmul(f->edge_b, part));
-    s->way = dadd(s->way, dmul(f->edge, part));
+    s->a = dadd(s->a, dmul(dsub(place_in_flat(&f->a, at_in_a(k->q.at)), s->a), part));
+    s->b = dadd(s->b, dmul(dsub(place_in_flat(&f->b, at_in_b(k->q.at)), s->b), part));
+    s->way = dadd(s->way, dmul(edge, part));
 }
 
 /* How far apart the front is, or whether that is more than the radii; the last corner was asked for along its way. 0:
  * that is not proven, or leaves open whether they meet. */
-HOT int tell_flat_front(const flat *f, const shape *a, const shape *b, const goal *g, result *r)
+HOT int tell_flat_front(const flat *f, const dfront *k, const shape *a, const shape *b, const goal *g, result *r)
 {
     const double of_a = (double)a->radius, of_b = (double)b->radius, blur = f->blur + f->radius * 0x1p-51;
-    dsight s = {.v = f->way};
-    sight_flat(f, &s);
-    s.far = dlength(s.way);
-    s.per = 1 / dlength(f->way);
-    s.lower = f->height * s.per;
+    dsight s = {.v = k->way};
+    sight_flat(f, k, &s);
+    const dvec lengths = dlengths(s.way, k->way);
+    const double along = dsecond(lengths);
+    s.far = dfirst(lengths);
+    s.per = 1 / along;
+    s.lower = k->height * s.per;
     const double lower = s.lower - f->radius - blur, upper = s.far - f->radius + blur;
-    const int meet = upper < 0, narrow = upper - lower <= f->wide && (f->n > 1 || s.far > f->blur * AWAY);
+    const int meet = upper < 0, narrow = upper - lower <= f->wide && along > f->blur * AWAY;
     if (!(lower > 0) && !meet) return 0;
     if (!narrow && (meet ? g->deep : !g->sign_only)) return 0;
     if (f->radius > 0) move_flat(&s, of_a, of_b, meet, g->deep);
-    return spell_flat(f, &s, lower, upper, s.far - f->radius, !meet || g->deep, r);
+    return spell_flat(f, k, &s, lower, upper, s.far - f->radius, !meet || g->deep, r);
 }
 
 /* That they are apart, as the last corner shows, if that is all that is asked. */
-HOT int shows_apart_flat(const flat *f)
+HOT int shows_apart_flat(const flat *f, const dfront *k)
 {
     const double least = f->radius + 2 * f->blur;
-    return f->height > 0 && f->height * f->height > least * least * ddot(f->way, f->way);
+    return k->height > 0 && k->height * k->height > least * least * ddot(k->way, k->way);
 }
 
-HOT int tell_flat_apart(const flat *f, const shape *a, const shape *b, result *r)
+HOT int tell_flat_apart(const flat *f, const dfront *k, const shape *a, const shape *b, result *r)
 {
     const double blur = f->blur + f->radius * 0x1p-51;
-    dsight s = {.way = f->last.w, .v = f->way};
-    s.a = place_in_flat(&f->a, corner_in_flat(&f->a, at_in_a(f->last.at)));
-    s.b = place_in_flat(&f->b, corner_in_flat(&f->b, at_in_b(f->last.at)));
-    s.far = dlength(s.way);
-    s.per = 1 / dlength(f->way);
-    s.lower = f->height * s.per;
+    dsight s = {.way = k->last.w, .v = k->way};
+    s.a = place_in_flat(&f->a, at_in_a(k->last.at));
+    s.b = place_in_flat(&f->b, at_in_b(k->last.at));
+    const dvec lengths = dlengths(s.way, k->way);
+    s.far = dfirst(lengths);
+    s.per = 1 / dsecond(lengths);
+    s.lower = k->height * s.per;
     const double lower = s.lower - f->radius - blur;
     if (!(lower > 0)) return 0;
     if (f->radius > 0) move_flat(&s, (double)a->radius, (double)b->radius, 0, 0);
-    return spell_flat(f, &s, lower, s.far - f->radius + blur, lower, 1, r);
+    return spell_flat(f, k, &s, lower, s.far - f->radius + blur, lower, 1, r);
 }
 
 /* By how much the origin is to the left of an edge, times its length, and the square of how far that is. */
@@ -408,27 +427,27 @@ HOT double turn_at(dvec p, dvec q, double *square)
 
 /* They overlap: the corner asked for last and the edge hold the origin. 0: with too little room, or too narrowly for a
  * point of both. */
-HOT int tell_flat_held(const flat *f, result *r)
+HOT int tell_flat_held(const flat *f, const dfront *k, result *r)
 {
-    const dspot *at[3] = {&f->p, &f->q, &f->last};
+    const dspot at[3] = {k->p, k->q, k->last};
     double square = DBL_MAX, turn[3];
-    dsight s = {.v = f->way};
+    dsight s = {.v = k->way};
     dvec off = dboth(0);
-    for (int i = 0; i < 3; i++) turn[i] = turn_at(at[(i + 1) % 3]->w, at[(i + 2) % 3]->w, &square);
+    for (int i = 0; i < 3; i++) turn[i] = turn_at(at[(i + 1) % 3].w, at[(i + 2) % 3].w, &square);
     if (!((turn[0] > 0 && turn[1] > 0 && turn[2] > 0) || (turn[0] < 0 && turn[1] < 0 && turn[2] < 0))) return 0;
     const double inside = droot(square), blur = 2 * f->blur + f->radius * 0x1p-51;
     if (!(inside > 2 * blur)) return 0;
-    s.per = 1 / dlength(f->way);
+    s.per = 1 / dlength(k->way);
     s.a = dboth(0);
     for (int i = 0; i < 3; i++) {
         const double share = turn[i] / (turn[0] + turn[1] + turn[2]);
-        s.a = dadd(s.a, dmul(place_in_flat(&f->a, corner_in_flat(&f->a, at_in_a(at[i]->at))), share));
-        off = dadd(off, dmul(at[i]->w, share));
+        s.a = dadd(s.a, dmul(place_in_flat(&f->a, at_in_a(at[i].at)), share));
+        off = dadd(off, dmul(at[i].w, share));
     }
     off = dsizes(off);
     if (!(dfirst(off) + dsecond(off) <= f->wide)) return 0;
     const double upper = blur - inside - f->radius;
-    return spell_flat(f, &s, f->height * s.per - f->radius - blur, upper, upper, 0, r);
+    return spell_flat(f, k, &s, k->height * s.per - f->radius - blur, upper, upper, 0, r);
 }
 
 /* What rounding took from the sum of a and b. */
@@ -452,9 +471,9 @@ HOT dvec odds_of_dspot(const flat *f, const dspot *p, double off)
 {
     dvec x, y, odds = dsizes(lost_in_flat(&f->a, at_in_a(p->at), &x));
     odds = dadd(odds, dsizes(lost_in_flat(&f->b, at_in_b(p->at), &y)));
-    const dvec from = dadd(y, f->c);
-    odds = dadd(odds, dsizes(dlost(y, f->c, from)));
-    odds = dadd(odds, dsizes(dlost(x, dnegative(from), p->w)));
+    const dvec of_b = dsub(f->c, y);
+    odds = dadd(odds, dsizes(dlost(f->c, dnegative(y), of_b)));
+    odds = dadd(odds, dsizes(dlost(x, of_b, p->w)));
     return dadd(odds, dsizes(dsub(dsub(dadd(p->w, dboth(off)), dboth(off)), p->w)));
 }
 
@@ -491,79 +510,91 @@ HOT int weigh_flat(const dspot *const at[3], int n, double weight[3])
 
 /* That the cores touch, where the walk has come to, of corners whose places are short numbers: with nothing rounded. 0:
  * they are none, or do not. */
-static APART int tell_flat_touching(flat own, result *r)
+static APART int tell_flat_touching(const flat *f, dfront own, result *r)
 {
-    const flat *f = &own;
-    const int n = f->n + f->around;
-    const dspot *const at[3] = {&f->p, f->n > 1 ? &f->q : &f->p, f->around ? &f->last : &f->p};
+    const dfront *k = &own;
+    const int n = k->n + k->around;
+    const dspot *const at[3] = {&k->p, k->n > 1 ? &k->q : &k->p, k->around ? &k->last : &k->p};
     const double off = off_above(f->wide * (1 / FLAT_WIDTH));
-    dsight s = {.a = dboth(0), .v = f->way};
+    dsight s = {.a = dboth(0), .v = k->way};
     double weight[3];
-    if (f->n == 0 || f->steps == 0 || !weigh_flat(at, n, weight)) return 0;
-    dvec odds = dsizes(dlost(f->b.p, dnegative(f->a.p), f->c));
+    if (k->n == 0 || k->steps == 0 || !weigh_flat(at, n, weight)) return 0;
+    dvec odds = dsizes(dlost(f->a.p, dnegative(f->b.p), f->c));
     for (int i = 0; i < n; i++) odds = dadd(odds, odds_of_dspot(f, at[i], off));
     if (!(dfirst(odds) + dsecond(odds) == 0)) return 0;
     const double sum = weight[0] + weight[1] + weight[2];
-    for (int i = 0; i < n; i++)
-        s.a = dadd(s.a, dmul(place_in_flat(&f->a, corner_in_flat(&f->a, at_in_a(at[i]->at))), weight[i] / sum));
-    s.per = 1 / dlength(f->way);
-    return spell_flat(f, &s, f->height * s.per - f->blur, 0, 0, 0, r);
+    for (int i = 0; i < n; i++) s.a = dadd(s.a, dmul(place_in_flat(&f->a, at_in_a(at[i]->at)), weight[i] / sum));
+    s.per = 1 / dlength(k->way);
+    return spell_flat(f, k, &s, k->height * s.per - f->blur, 0, 0, 0, r);
 }
 
 /* ---- the walk ---- */
 
 /* The front, along which the last corner was asked for, is so near that the radii meet. */
-HOT int is_flat_within(const flat *f)
+HOT int is_flat_within(const flat *f, const dfront *k)
 {
-    const double within = f->radius - 4 * f->blur, height = ddot(f->v, f->p.w);
-    return within > 0 && height * height < within * within * ddot(f->v, f->v);
+    const double within = f->radius - 4 * f->blur, height = ddot(k->v, k->p.w);
+    return within > 0 && height * height < within * within * ddot(k->v, k->v);
 }
 
 /* Where it ends: nowhere; where the corner asked for last shows that they are apart; at a front that is nearest; or
  * around the origin. */
-HOT enum halt walk_flat(flat *f, const goal *g)
+HOT enum halt walk_flat(const flat *f, dfront *k, const goal *g)
 {
     for (;;) {
-        if (f->steps >= ASKED_MOST || f->steps >= g->max_steps || !(ddot(f->v, f->v) > 0)) return LOST;
-        ask_flat(f);
-        if (g->sign_only && shows_apart_flat(f)) return SHOWN;
-        if (f->n > 0) {
-            const double gap = ddot(f->v, dsub(f->p.w, f->last.w));
-            if (f->last.at == f->p.at || f->last.at == f->q.at) return FOREMOST;
-            if (!(gap > 0) || gap * gap <= f->blur * f->blur * ddot(f->v, f->v)) return FOREMOST;
-            if (g->sign_only && is_flat_within(f)) return FOREMOST;
+        if (k->steps >= ASKED_MOST || k->steps >= g->max_steps || !(ddot(k->v, k->v) > 0)) return LOST;
+        ask_flat(f, k);
+        if (g->sign_only && shows_apart_flat(f, k)) return SHOWN;
+        if (k->n > 0) {
+            const double gap = ddot(k->v, dsub(k->p.w, k->last.w));
+            if (k->last.at == k->p.at || k->last.at == k->q.at) return FOREMOST;
+            if (!(gap > 0) || gap * gap <= f->blur * f->blur * ddot(k->v, k->v)) return FOREMOST;
+            if (g->sign_only && is_flat_within(f, k)) return FOREMOST;
         }
-        f->around = !turn_flat(f);
-        if (f->around) return AROUND;
+        k->around = !turn_flat(k);
+        if (k->around) return AROUND;
     }
+}
+
+/* The pair, as far as it is looked at. 0: it is no such, or too large. */
+HOT int set_flat(flat *f, const shape *a, const shape *b)
+{
+    flat_list of_a, of_b;
+    real run_a[RUN * DIM], run_b[RUN * DIM];
+    if (!list_flat(a, run_a, &of_a) || !list_flat(b, run_b, &of_b)) return 0;
+    if (!(a->radius >= 0 && a->radius <= REAL_MAX / 16 && b->radius >= 0 && b->radius <= REAL_MAX / 16)) return 0;
+    const double far = pose_flat(a, of_a.reach, &f->a) + pose_flat(b, of_b.reach, &f->b);
+    f->c = dsub(f->a.p, f->b.p);
+    const dvec apart = dsizes(f->c);
+    const double whole = far + (dfirst(apart) + dsecond(apart));
+    if (!(whole <= (double)REAL_MAX / 4) && is_too_large(a, b)) return 0;
+    f->blur = whole * FLAT_DOUBT;
+    f->wide = whole * FLAT_WIDTH;
+    f->radius = (double)a->radius + (double)b->radius;
+    return take_flat(&of_a, run_a, &f->a, 0, f->c) && take_flat(&of_b, run_b, &f->b, 1, f->c);
 }
 
 /* 0: nothing is told. Else r is written as it is told of all bodies, its value 0 where they meet. */
 HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, result *r)
 {
     flat f;
+    dfront k;
     if (a->support == pub(support_box) && b->support == pub(support_box)) return 0; /* told by their axes */
-    if (!list_flat(a, &f.a) || !list_flat(b, &f.b)) return 0;
-    if (!(a->radius >= 0 && a->radius <= REAL_MAX / 16 && b->radius >= 0 && b->radius <= REAL_MAX / 16)) return 0;
-    if (!take_flat(a, &f.a) || !take_flat(b, &f.b)) return 0;
-    f.c = dsub(f.b.p, f.a.p);
-    const dvec apart = dsizes(f.c);
-    const double whole = f.a.far + f.b.far + (dfirst(apart) + dsecond(apart));
-    if (!(whole <= (double)REAL_MAX / 4) && is_too_large(&f.a, &f.b, a, b)) return 0;
-    f.blur = whole * FLAT_DOUBT;
-    f.wide = whole * FLAT_WIDTH;
-    f.radius = (double)a->radius + (double)b->radius;
-    f.n = f.steps = f.around = 0;
-    if (own && lends(own, a, b)) recall_flat(&f, own);
-    const int recalled = f.n;
-    if (!recalled) f.v = ddot(f.c, f.c) > 0 ? dnegative(f.c) : dvec_of(1, 0);
-    const enum halt at = walk_flat(&f, g);
-    int told = at == SHOWN      ? tell_flat_apart(&f, a, b, r)
-               : at == FOREMOST ? tell_flat_front(&f, a, b, g, r)
-               : at == AROUND   ? !g->deep && tell_flat_held(&f, r)
+    if (!set_flat(&f, a, b)) return 0;
+    k.n = k.steps = k.around = 0;
+    if (own && lends(own, a, b)) recall_flat(&f, &k, own);
+    const int recalled = k.n;
+    if (!recalled) k.v = ddot(f.c, f.c) > 0 ? f.c : dvec_of(1, 0);
+    const enum halt at = walk_flat(&f, &k, g);
+    int told = at == SHOWN      ? tell_flat_apart(&f, &k, a, b, r)
+               : at == FOREMOST ? tell_flat_front(&f, &k, a, b, g, r)
+               : at == AROUND   ? !g->deep && tell_flat_held(&f, &k, r)
                                 : 0;
-    if (!told && !g->deep && f.radius == 0) told = tell_flat_touching(f, r);
-    if (told && own && !(recalled && is_kept_flat(own, &f))) keep_flat(own, &f, a, b);
+    if (!told && !g->deep && f.radius == 0) told = tell_flat_touching(&f, k, r);
+    if (told && own) {
+        const uint32_t count = (uint32_t)(k.n + k.around), hint = dhint_of(&k);
+        if (!recalled || own->count != count || own->reserved != hint) keep_flat(own, &f, count, hint, a, b);
+    }
     return told;
 }
 

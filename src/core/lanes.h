@@ -19,9 +19,13 @@ static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_pd(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_pd(x, y); }
 static inline lanes sizes(lanes x) { return _mm_andnot_pd(_mm_set1_pd(-0.0), x); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cmpge_pd(x, y)); }
+static inline lanes no_larger(lanes x, lanes y) { return _mm_cmple_pd(x, y); }
+static inline lanes in_both(lanes x, lanes y) { return _mm_and_pd(x, y); }
+static inline int holds_in_all(lanes x) { return _mm_movemask_pd(x) == (1 << LANES) - 1; }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_pd(x); }
 static inline lanes largest_in_all(lanes x) { return _mm_max_pd(x, _mm_shuffle_pd(x, x, 1)); }
+static inline real first_lane(lanes x) { return _mm_cvtsd_f64(x); }
 static inline lanes least_in_all(lanes x) { return _mm_min_pd(x, _mm_shuffle_pd(x, x, 1)); }
 
 /* A number of each point, step by step. */
@@ -64,6 +68,9 @@ static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_ps(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_ps(x, y); }
 static inline lanes sizes(lanes x) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), x); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_ps(_mm_cmpge_ps(x, y)); }
+static inline lanes no_larger(lanes x, lanes y) { return _mm_cmple_ps(x, y); }
+static inline lanes in_both(lanes x, lanes y) { return _mm_and_ps(x, y); }
+static inline int holds_in_all(lanes x) { return _mm_movemask_ps(x) == (1 << LANES) - 1; }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_ps(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_ps(x); }
 static inline lanes largest_in_all(lanes x)
@@ -71,6 +78,7 @@ static inline lanes largest_in_all(lanes x)
     x = _mm_max_ps(x, _mm_shuffle_ps(x, x, 0x4e));
     return _mm_max_ps(x, _mm_shuffle_ps(x, x, 0xb1));
 }
+static inline real first_lane(lanes x) { return _mm_cvtss_f32(x); }
 static inline lanes least_in_all(lanes x)
 {
     x = _mm_min_ps(x, _mm_shuffle_ps(x, x, 0x4e));
@@ -131,9 +139,13 @@ static inline lanes larger_ones(lanes x, lanes y) { return larger(x, y); }
 static inline lanes smaller_ones(lanes x, lanes y) { return smaller(x, y); }
 static inline lanes sizes(lanes x) { return size(x); }
 static inline int any_as_large(lanes x, lanes y) { return x >= y; }
+static inline lanes no_larger(lanes x, lanes y) { return x <= y ? 1 : 0; }
+static inline lanes in_both(lanes x, lanes y) { return x * y; }
+static inline int holds_in_all(lanes x) { return x != 0; }
 static inline void part_lanes(lanes x, real r[LANES]) { r[0] = x; }
 static inline lanes join_lanes(const real x[LANES]) { return x[0]; }
 static inline lanes largest_in_all(lanes x) { return x; }
+static inline real first_lane(lanes x) { return x; }
 static inline lanes least_in_all(lanes x) { return x; }
 static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
 {

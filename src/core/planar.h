@@ -112,7 +112,7 @@ HOT int place_corners(const body *k, int framed, cluster *p)
     const real *first = p->from->v, *last = first;
     size_t step = p->from->step;
     if (p->from->count < RUN) {
-        fill_run(p->from, run);
+        fill_run(*p->from, run);
         first = last = run;
         step = DIM;
     } else {

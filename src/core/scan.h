@@ -126,23 +126,9 @@ static APART int are_numbers(const list *l, vec d)
 /* A sum of heights is finite only if every height, and with it every point, is; it need not be if they are. */
 static inline int has_none(const list *l, vec d, real sum) { return !(sum * 0 == 0) && !are_numbers(l, d); }
 
-/* The first of the highest, and nothing else. */
-HOT size_t first_of_few(const list *l, vec d)
-{
-    const real *x = l->v;
-    real highest = dot(load(x), d);
-    size_t at = 0;
-    for (size_t i = 1; i < l->count; i++) {
-        real height = dot(load(x += l->step), d);
-        at = height > highest ? i : at;
-        highest = larger(height, highest);
-    }
-    return at;
-}
-
+/* Of less than a run almost equals are told apart in any case. */
 HOT size_t farthest_of_few(const list *l, vec d, enum care care)
 {
-    if (care == HASTY && l->count > 3) return first_of_few(l, d);
     const real *x = l->v;
     summit s = {dot(load(x), d), -REAL_MAX, 0};
     real sum = s.highest;
@@ -152,7 +138,7 @@ HOT size_t farthest_of_few(const list *l, vec d, enum care care)
         s = see(s, height, i);
     }
     if (is_of_strangers(care) && has_none(l, d, sum)) return l->count;
-    return tells_equals(care) || l->count <= 3 ? settle_summit(l, d, s) : s.at;
+    return settle_summit(l, d, s);
 }
 
 static inline real sum_of_lanes(lanes x)
@@ -175,30 +161,44 @@ static inline unsigned first_bit(unsigned set)
     return at;
 }
 
-/* The first of the highest of less than MANY points, but a RUN of them at least, by rounded heights. Which it is is
- * read off bits, one for each: nothing is branched on. The last run is of the last ones, some of them once more. */
-HOT size_t highest_of_few(const list *l, vec d, int strangers)
+/* Bit i: point i of n is no lower than that. The last run is of the last ones, some of them once more. */
+HOT unsigned as_high_as(const real height[MANY], size_t n, real least)
+{
+    const size_t last = n - RUN;
+    unsigned at = 0;
+    for (size_t i = 0;; i = i + RUN < last ? i + RUN : last) {
+        for (size_t k = i; k < i + RUN; k += LANES)
+            at |= (unsigned)any_as_large(join_lanes(height + k), in_all(least)) << k;
+        if (i == last) return at;
+    }
+}
+
+/* The farthest of less than MANY points, but a RUN of them at least. Which are high is read off bits, one for each:
+ * nothing is branched on but whether there is more than one. */
+HOT size_t farthest_in_few_runs(const list *l, vec d, enum care care)
 {
     const size_t n = l->count, step = l->step, last = n - RUN;
     const ways way = ways_of(d);
     real height[MANY];
     lanes most = in_all(-REAL_MAX), total = in_all(0);
-    unsigned at = 0;
     for (size_t i = 0;; i = i + RUN < last ? i + RUN : last) {
         for (size_t k = i; k < i + RUN; k += LANES) {
             const lanes next = heights(l->v + k * step, step, &way);
             part_lanes(next, height + k);
             most = larger_ones(next, most);
-            if (strangers) total = sums(total, next);
+            if (is_of_strangers(care)) total = sums(total, next);
         }
         if (i == last) break;
     }
-    if (strangers && has_none(l, d, sum_of_lanes(total))) return n;
-    most = largest_in_all(most);
-    for (size_t i = 0;; i = i + RUN < last ? i + RUN : last) {
-        for (size_t k = i; k < i + RUN; k += LANES) at |= (unsigned)any_as_large(join_lanes(height + k), most) << k;
-        if (i == last) break;
+    if (is_of_strangers(care) && has_none(l, d, sum_of_lanes(total))) return n;
+    const real highest = first_lane(largest_in_all(most));
+    if (tells_equals(care)) {
+        const real almost = highest - margin_of(l, d);
+        const unsigned near = as_high_as(height, n, almost);
+        if (near & (near - 1)) return settle_tie(l, d, first_bit(as_high_as(height, n, highest)), almost);
+        if (near) return first_bit(near);
     }
+    const unsigned at = as_high_as(height, n, highest);
     return at ? first_bit(at) : 0;
 }
 
@@ -276,7 +276,7 @@ static APART size_t farthest_of_many_in_haste(const list *l, vec d) { return far
  * sight, and of so few as a segment or a triangle has, almost equals are told apart in any case. */
 HOT size_t farthest_among(const list *l, vec d, enum care care)
 {
-    if (l->count < MANY && l->count > 3 && !tells_equals(care)) return highest_of_few(l, d, is_of_strangers(care));
+    if (l->count < MANY && l->count >= RUN) return farthest_in_few_runs(l, d, care);
     if (l->count < MANY) return farthest_of_few(l, d, care);
     if (care == HASTY) return farthest_of_many_in_haste(l, d);
     return is_of_strangers(care) ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
