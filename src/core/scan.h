@@ -162,13 +162,12 @@ static inline unsigned first_bit(unsigned set)
 }
 
 /* Bit i: point i of n is no lower than that. The last run is of the last ones, some of them once more. */
-HOT unsigned as_high_as(const real height[MANY], size_t n, real least)
+HOT unsigned as_high_as(const real height[MANY], size_t n, lanes least)
 {
     const size_t last = n - RUN;
     unsigned at = 0;
     for (size_t i = 0;; i = i + RUN < last ? i + RUN : last) {
-        for (size_t k = i; k < i + RUN; k += LANES)
-            at |= (unsigned)any_as_large(join_lanes(height + k), in_all(least)) << k;
+        for (size_t k = i; k < i + RUN; k += LANES) at |= (unsigned)any_as_large(join_lanes(height + k), least) << k;
         if (i == last) return at;
     }
 }
@@ -191,14 +190,14 @@ HOT size_t farthest_in_few_runs(const list *l, vec d, enum care care)
         if (i == last) break;
     }
     if (is_of_strangers(care) && has_none(l, d, sum_of_lanes(total))) return n;
-    const real highest = first_lane(largest_in_all(most));
+    most = largest_in_all(most);
     if (tells_equals(care)) {
-        const real almost = highest - margin_of(l, d);
-        const unsigned near = as_high_as(height, n, almost);
-        if (near & (near - 1)) return settle_tie(l, d, first_bit(as_high_as(height, n, highest)), almost);
+        const real almost = first_lane(most) - margin_of(l, d);
+        const unsigned near = as_high_as(height, n, in_all(almost));
+        if (near & (near - 1)) return settle_tie(l, d, first_bit(as_high_as(height, n, most)), almost);
         if (near) return first_bit(near);
     }
-    const unsigned at = as_high_as(height, n, highest);
+    const unsigned at = as_high_as(height, n, most);
     return at ? first_bit(at) : 0;
 }
 
