@@ -20,10 +20,10 @@ static const uint64_t known[3] = {0x6de4c522df537819, 0x15f91a2cc5bd4720, 0x4f9f
 static const uint64_t known[3] = {0x28999e7210a8c2a8, 0x69a35fca1dbfd9ed, 0x4731a6444d029b58};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xfb1bfdcb85ea42f5, 0x2675328f528b3d42, 0x331c9cc5990ff3b9};
+static const uint64_t known[3] = {0xfb1bfdcb85ea42f5, 0x2a0a681a1b398165, 0x331c9cc5990ff3b9};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xf0cc02c1c909e4a7, 0x40b7ef70cb8899c0, 0xc9112224368e5138};
+static const uint64_t known[3] = {0xf0cc02c1c909e4a7, 0x8c73ce390e1498ba, 0xc9112224368e5138};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -397,6 +397,39 @@ static void of_points_edited(void **state)
     }
 }
 
+static void soil_the_stack(int with)
+{
+    volatile unsigned char soil[1 << 16];
+    for (size_t i = 0; i < sizeof soil; i++) soil[i] = (unsigned char)with;
+}
+
+/* What a query leaves in a cache is of the pair alone, to the last byte, whatever stood in memory before. */
+static void of_the_pair_alone(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 20000; i++) {
+        draws d = draws_from(6, 14, i);
+        V(options) o = default_options();
+        V(cache) before;
+        V(result) r;
+        int meet = below(&d, 2);
+        double dir[DIM];
+        draw_hull(&d, &p.a, 3 + below(&d, 6), 1);
+        draw_hull(&d, &p.b, 3 + below(&d, 6), 1);
+        unit(&d, dir);
+        move(&p.b, dir, between(&d, 0, 5));
+        bind_pair(&p);
+        o.cache = &cache;
+        for (int k = 0; k < 2; k++) {
+            before = cache;
+            start_cache();
+            soil_the_stack(k ? 0x2a : 0xd5);
+            assert_true((meet ? V(intersect) : V(distance))(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+        }
+        assert_memory_equal(&cache, &before, sizeof cache);
+    }
+}
+
 #if DIM == 2
 /* Fewer of them, under the same name, one of which stands where a cache has one of many: it gets none from elsewhere,
  * and the answer is that of today's. */
@@ -486,6 +519,7 @@ int main(void)
 #if DIM == 2
         cmocka_unit_test(of_fewer_points),
 #endif
+        cmocka_unit_test(of_the_pair_alone),
         cmocka_unit_test(after_a_leap),
         cmocka_unit_test(after_slack),
     };

@@ -30,7 +30,7 @@ static APART void fill_run(const list of, real run[RUN * DIM])
 
 #if HAS_SISTER
 
-/* Bounds are off by so much of A + B + |c|_1 at most, where the bodies reach A and B from their positions, c apart: 12
+/* Bounds are off by so much of A + B + |c|_1 at most, where the bodies reach A and B from their positions, c apart: 15
  * roundings (docs/bounds.md). */
 #define FLAT_DOUBT 0x1p-49
 
@@ -245,11 +245,13 @@ HOT void stand_between(dfront *k, dspot p, dspot q)
 /* Takes in the corner asked for last, as turn_front does. 0: with the edge it holds the origin. */
 HOT int turn_flat(dfront *k)
 {
+    if (k->n == 0) {
+        stand_on_dspot(k, k->last);
+        return 1;
+    }
     const dspot p = k->p, q = k->q, last = k->last;
     const dvec left = dsub(p.w, last.w);
-    if (k->n == 0) {
-        stand_on_dspot(k, last);
-    } else if (k->n == 1) {
+    if (k->n == 1) {
         const double from = ddot(p.w, left), to = ddot(last.w, left);
         if (from > 0 && to < 0) stand_between(k, p, last);
         else stand_on_dspot(k, from > 0 ? last : p);
@@ -592,6 +594,7 @@ HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, res
                                 : 0;
     if (!told && !g->deep && f.radius == 0) told = tell_flat_touching(&f, k, r);
     if (told && own) {
+        if (k.n == 0) stand_on_dspot(&k, k.last);
         const uint32_t count = (uint32_t)(k.n + k.around), hint = dhint_of(&k);
         if (!recalled || own->count != count || own->reserved != hint) keep_flat(own, &f, count, hint, a, b);
     }

@@ -774,6 +774,7 @@ HOT int look_at_planar(search *q, cache *own, int framed, const shape *a, const 
                : at == AROUND   ? tell_held(q, &k, &f, framed, a, b, g, r)
                                 : 0;
     if (!told) told = tell_touching(q, &k, f, framed, a, b, g, r);
+    if (told && f.n == 0) stand_on_corner(&f, f.last);
     if (!told) leave_front(q, &k, f, a, b);
     else if (own && !(recalled && is_kept(own, &f))) hand_on_front(own, q, &k, f, a, b);
     return told;
