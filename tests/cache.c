@@ -432,7 +432,7 @@ static void of_the_pair_alone(void **state)
 
 #if DIM == 2
 /* Fewer of them, under the same name, one of which stands where a cache has one of many: it gets none from elsewhere,
- * and the answer is that of today's. */
+ * and the answer is today's. */
 static void of_fewer_points(void **state)
 {
     static real room[1 + 8][DIM]; /* in front of the corners is something else */

@@ -127,12 +127,6 @@ HOT int dsame(dvec a, dvec b)
     return dfirst(off) + dsecond(off) == 0;
 }
 
-/* The transpose of the map, times v: a direction seen from the set's own frame. */
-HOT dvec dpull(const dvec row[2], dvec v)
-{
-    return dadd(dtimes(row[0], dfirsts(v, v)), dtimes(row[1], dseconds(v, v)));
-}
-
 /* At the edge of the floats where these end before it does. */
 HOT dvec dinto_range(dvec a) { return dlarger(dsmaller(a, dboth((double)REAL_MAX)), dboth(-(double)REAL_MAX)); }
 

@@ -37,7 +37,9 @@ static APART void fill_run(const list of, real run[RUN * DIM])
 /* By so much may a bracket be wide, if it is to be the answer: a share of a float's rounding of them. */
 #define FLAT_WIDTH 0x1p-26
 
-/* So many times what bounds are off is a corner's distance to be a direction, to a float's rounding. */
+/* So many times what bounds are off is a corner's distance, or an edge's length, to be a direction to a float's
+ * rounding.
+ */
 #define AWAY 0x1p20
 
 /* ---- the bodies ---- */
@@ -147,18 +149,21 @@ HOT dvec place_in_flat(const flat_body *s, unsigned at) { return ddots(s->row[0]
 
 HOT dvec share_in_flat(const flat_body *s, unsigned at) { return dvec_of(s->share[0][at], s->share[1][at]); }
 
-/* The first of the corners whose shares are lowest along a way, that is given as its parts, each side by side. */
+/* How high the shares of two corners from place at on are along a way, that is given as its parts, each side by side.
+ */
+HOT dvec heights_in_flat(const flat_body *s, int at, dvec x, dvec y)
+{
+    return dadd(dtimes(djoin(s->share[0] + at), x), dtimes(djoin(s->share[1] + at), y));
+}
+
+/* The first of the corners whose shares are lowest along it. */
 HOT unsigned lowest_in_flat(const flat_body *s, dvec x, dvec y)
 {
-    dvec heights[PLACES / 2], least;
-    for (int i = 0; i < RUN; i += 2)
-        heights[i / 2] = dadd(dtimes(djoin(s->share[0] + i), x), dtimes(djoin(s->share[1] + i), y));
-    least = dsmaller(heights[0], heights[1]);
-    heights[2] = heights[0];
-    heights[3] = heights[1];
+    const dvec first = heights_in_flat(s, 0, x, y), second = heights_in_flat(s, 2, x, y);
+    dvec heights[PLACES / 2] = {first, second, first, second}, least = dsmaller(first, second);
     if (s->many) {
-        for (int i = RUN; i < PLACES; i += 2)
-            heights[i / 2] = dadd(dtimes(djoin(s->share[0] + i), x), dtimes(djoin(s->share[1] + i), y));
+        heights[2] = heights_in_flat(s, RUN, x, y);
+        heights[3] = heights_in_flat(s, RUN + 2, x, y);
         least = dsmaller(least, dsmaller(heights[2], heights[3]));
     }
     return dfirst_within(heights, dsmaller(least, dswapped(least)));

@@ -214,7 +214,7 @@ static inline fours products_of(fours x, fours y)
 static inline int are_none(fours x)
 {
     int r = 1;
-    EACH_PART(r &= any_as_large(in_all(0), x.part[i]) == (1 << LANES) - 1);
+    EACH_PART(r &= holds_in_all(no_larger(x.part[i], in_all(0))));
     return r;
 }
 
