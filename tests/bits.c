@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x6de4c522df537819, 0x15f91a2cc5bd4720, 0x4f9fdfba61e9f45e};
+static const uint64_t known[3] = {0x560d91128fbb92a5, 0xe1904580b878729b, 0xccbb35b30ff815d2};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x28999e7210a8c2a8, 0x69a35fca1dbfd9ed, 0x4731a6444d029b58};
+static const uint64_t known[3] = {0x9632044ff8a8afa9, 0x35115401dd6bc5e2, 0x908f643b3f270cf1};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xfb1bfdcb85ea42f5, 0x2a0a681a1b398165, 0x331c9cc5990ff3b9};
+static const uint64_t known[3] = {0x2930ebc2168c19f8, 0x8f3574bcfb72e05c, 0x0676d4c51ad96022};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xf0cc02c1c909e4a7, 0x8c73ce390e1498ba, 0xc9112224368e5138};
+static const uint64_t known[3] = {0x0d3e7579b5c8cd22, 0x854a3c5d34e76403, 0x261b2c4e56a46da6};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

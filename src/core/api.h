@@ -4,6 +4,7 @@
 #define GJK_CORE_API_H
 
 #include "answer.h"
+#include "apart.h"
 #include "axes.h"
 #include "boxes.h"
 #include "fine.h"
@@ -123,6 +124,22 @@ static inline int is_depth_alone(const search *q, const goal *g)
     return g->deep && g->exact && !g->tight && !(q->lower > 0) && q->inside > 64 * q->d.doubt;
 }
 
+/* Round bodies, that the first corner has been asked of: without a walk, if they have a dip that tells. 0: it does not.
+ */
+static int run_to_dip(search *q, const shape *a, const shape *b, const goal *g, enum end *end, real *upper,
+                      real weight[])
+{
+    const goal here = scaled(g, q->d.scale);
+    *end = turn_to_dip(q, a, b, &here);
+    if (*end == OPEN) return 0;
+    q->turned = *end == INSIDE;
+    if (q->turned) *end = STILL;
+    if (q->turned) *upper = certify(q, weight);
+    else if (*end != FAULT) *end = sharpen_on(q, &here, *end, upper, weight);
+    if (*end != FAULT && !(q->lower <= *upper)) *end = FAULT;
+    return 1;
+}
+
 /* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation;
  * FAULT also where the bounds cross, which points of two convex sets never do. */
 static enum end run(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end walked,
@@ -145,10 +162,14 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         if (end == INSIDE && q->inside > q->d.doubt) *upper = q->d.doubt - q->inside;
         if (end != FAULT && q->lower <= *upper) return end;
     }
+    int opened = q->turned >= 0 && !g->exact && have_heights(a, b) && open_cold(q, a, b, o->slack);
+    if (opened && run_to_dip(q, a, b, g, &end, upper, weight)) return end;
+    opened &= !warm;
     for (;;) {
         end = FAULT;
         if (warm) warm = open_warm(q, a, b, o->slack, o->cache);
-        if (warm || open_cold(q, a, b, o->slack)) {
+        if (warm || opened || open_cold(q, a, b, o->slack)) {
+            opened = 0;
             goal here = scaled(g, q->d.scale);
             end = search_on(q, &here, upper, weight);
             if (end == BEYOND && g->sign_only && q->lender) {
@@ -278,6 +299,7 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     if (q->met) *upper = smaller(*upper, 0);
     enum end end = fathom(&d, upper, weight);
     if (end == FAULT || !(q->lower <= *upper)) return FAULT;
+    if (*upper < 0) q->turned = 0;
     bracket(r, &q->d, q->lower, *upper, a, b);
     r->value = middle(q, g, d.near);
     if (d.settled) {
@@ -583,7 +605,12 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
     if (q->thin == TELLING && o->cache) o->cache->count = 0; /* there is nothing that a formula would start from */
     if (q->told) return 0;
     if (!sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;
+    q->turned = 0;
     *end = solve(q, a, b, o, g, *end, r);
+    if (q->turned) { /* to what has turned out to be no way out */
+        q->turned = -1;
+        *end = solve(q, a, b, o, g, FAULT, r);
+    }
     if (*end == FAULT) return GJK_BAD_SUPPORT;
     if (o->cache) remember(o->cache, q, a, b);
     return 0;

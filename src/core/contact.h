@@ -264,7 +264,7 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     search *q = d->q;
     if (!f || !(f->below >= q->lower - 4 * q->d.doubt)) return NULL;
     if (bounds_as_well(q, f)) return f;
-    if (q->steps >= d->g->max_steps || !find_least(&d->dips->bulk, q->normal, &b)) return NULL;
+    if (q->steps >= d->g->max_steps || !find_least(&d->dips->bulk, q->normal, NULL, &b)) return NULL;
     const int taken = take_dip(d, &b, other);
     if (taken < 0) *end = FAULT;
     return taken > 0 && bounds_as_well(q, other) ? other : NULL;
@@ -308,7 +308,9 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.n = 0;
     own.best = NULL;
     own.tried = REAL_MAX;
-    if (!g->exact && !g->early && know_bulk(&own.bulk, &d->q->d, d->a, d->b)) d->dips = &own;
+    if (!g->exact && !g->early && !are_bodies_aligned(&d->q->d, d->a, d->b) &&
+        know_bulk(&own.bulk, &d->q->d, d->a, d->b))
+        d->dips = &own;
     d->p.fine = g->exact;
     d->p.whole = &d->q->d;
     d->p.noise = (d->p.fine ? 32 * UNIT : 4) * UNIT;

@@ -93,8 +93,9 @@ typedef struct search {
 #if DIM == 3
     trail trail;
 #endif
-    int stood; /* the corner in the spare slot was sought in haste, and lies no lower along v */
-    int kept;  /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
+    int turned; /* not walked, but turned to a dip of the heights that seems to be a way out; below 0: never again */
+    int stood;  /* the corner in the spare slot was sought in haste, and lies no lower along v */
+    int kept;   /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
 } search;
 
 /* |v| is below a sixteenth of a rounding of the frame, which is of size 1 to 2: it has no direction. Not as much as

@@ -10,7 +10,7 @@
 
 #include "listed.h"
 #include "polytope.h"
-#include "round.h"
+#include "dip.h"
 #include "tight.h"
 
 /* What the proof needs to know of some facets. */
@@ -886,9 +886,12 @@ static int look_lower(depth *d, const facet *f, int first)
 static int find_lowest_dip(const depth *d, int facets, bent *best)
 {
     bent b;
-    int found = find_least(&d->dips->bulk, d->q->normal, best);
+    int found = find_least(&d->dips->bulk, d->q->normal, NULL, best);
     for (int k = 0; k < facets; k++) {
-        if (!find_least(&d->dips->bulk, d->p.facet[k].n, &b) || (found && !(b.height < best->height))) continue;
+        if (found && height_of_bulk(&d->dips->bulk, d->p.facet[k].n) > best->height) continue;
+        if (!find_least(&d->dips->bulk, d->p.facet[k].n, found ? &best->n : NULL, &b) ||
+            (found && !(b.height < best->height)))
+            continue;
         *best = b;
         found = 1;
     }

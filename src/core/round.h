@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Round sets near the way out. The height of an ellipsoid, a cylinder or a box along n is a sum of lengths |L n|, whose
- * slopes and curvatures are known; so where it is least nearby is found in a few steps, and how high it is at least
- * around there is proven by curvature (docs/bounds.md), which corners prove but slowly. */
+/* Round sets. The height of an ellipsoid, a cylinder, a cone or a box along n is a sum of lengths |L n|, or of parts of
+ * such, whose slopes and curvatures are known; so where the height of A - B is least nearby is found in a few turns of
+ * n: the way to the nearest points, where they are apart, and a way out, where they overlap. Nothing is proven here. */
 #ifndef GJK_CORE_ROUND_H
 #define GJK_CORE_ROUND_H
 
@@ -12,13 +12,17 @@
 
 #define MOST_LIMBS (2 * DIM)
 
-/* Adds |L n| to the height along n. It is straight, of one row, or round. */
+/* Adds |L n| to the height along n; it is straight, of one row, or round. A cone's adds what |L n| + lean.n is above 0,
+ * if it is: |L n| + lean.n times (1 + sign) / 2, the sign that of it. */
 typedef struct limb {
-    vec row[DIM]; /* of L */
-    int rows;
+    vec row[DIM]; /* of L, so many, */
+    int rows;     /*   and then 0 */
+    int partial;  /* a cone's */
+    vec lean;
     real size;        /* bounds |L| */
+    real steep;       /* of a cone's, and |lean| */
     int of_b, first;  /* the body's axes that it is made of, from that on */
-    real length[DIM]; /* along these, in the body's own unit */
+    real length[DIM]; /* along these, in the body's own unit; of a cone's also half its length, beside these */
 } limb;
 
 /* What the heights of A - B are made of, in the frame: middle.n, and its limbs'. */
@@ -30,52 +34,98 @@ typedef struct bulk {
 
 /* ---- what ready-made sets are made of ---- */
 
+/* How a body's own points come to the frame: by its map, if it has one, and times the grain; and its unit. */
+typedef struct stand {
+    const real *m;
+    real unit, grain;
+} stand;
+
+static inline stand stand_of(const body *k) { return (stand){k->posed ? k->m : NULL, k->unit, k->grain}; }
+
+/* Where the body's axis leads, by its map. */
+static vec axis_by_map(const stand *k, int at)
+{
+    vec u = axis(at, 1);
+    for (int i = 0; i < DIM && k->m; i++) u.c[i] = k->m[DIM * i + at];
+    return u;
+}
+
+/* The axis, so long, in the frame. */
+static vec axis_in_frame(const stand *k, int at, real size) { return mul(axis_by_map(k, at), size * k->grain); }
+
 /* The body's axes from the first on, so many, each as long as it says. Of no length they add nothing. */
-static void add_limb(bulk *b, const body *k, int of_b, int first, int rows, const real *lengths)
+static void add_limb(bulk *b, const stand *k, int of_b, int first, int rows, const real *lengths)
 {
     limb *l = &b->limb[b->limbs];
     real square = 0;
     l->of_b = of_b;
     l->first = first;
+    l->partial = 0;
     for (int r = 0; r < rows; r++) {
-        const int at = first + r;
-        vec u = axis(at, 1);
-        for (int i = 0; i < DIM && k->posed; i++) u.c[i] = k->m[DIM * i + at];
         l->length[r] = lengths[r] * k->unit;
-        l->row[r] = mul(u, l->length[r] * k->grain);
+        l->row[r] = axis_in_frame(k, first + r, l->length[r]);
         square += dot(l->row[r], l->row[r]);
     }
+    for (int r = rows; r < DIM; r++) l->row[r] = axis(0, 0);
     l->rows = rows;
     l->size = root(square) * (1 + 16 * UNIT);
     b->limbs += l->size > 0;
 }
 
-/* 0: it is not known what the set's heights are made of. */
-static int add_body(bulk *b, const body *k, int of_b, const shape *s)
+static void add_box(bulk *b, const stand *k, int of_b, const real *half)
 {
+    for (int i = 0; i < DIM; i++) add_limb(b, k, of_b, i, 1, half + i);
+}
+
+#if DIM == 3
+static void add_cylinder(bulk *b, const stand *k, int of_b, real radius, real half)
+{
+    const real radii[2] = {radius, radius};
+    add_limb(b, k, of_b, 0, 2, radii);
+    add_limb(b, k, of_b, 2, 1, &half);
+}
+
+/* A cone is its apex, and what its disc rises above that. 0: it has none. */
+static int add_cone(bulk *b, const stand *k, int of_b, real radius, real half)
+{
+    const real radii[2] = {radius, radius};
+    limb *l = &b->limb[b->limbs];
+    add_limb(b, k, of_b, 0, 2, radii);
+    if (!(l->size > 0 && half > 0)) return 0;
+    l->partial = 1;
+    l->length[2] = half * k->unit;
+    const vec up = axis_in_frame(k, 2, of_b ? -l->length[2] : l->length[2]);
+    b->middle = add(b->middle, up);
+    l->lean = mul(up, -2);
+    l->steep = l->size + length(l->lean) * (1 + 16 * UNIT);
+    return 1;
+}
+#endif
+
+/* 0: it is not known what the set's heights are made of. */
+static int add_body(bulk *b, const body *of, int of_b, const shape *s)
+{
+    const stand k = stand_of(of);
     const real *sizes = s->data;
-    if (s->support == pub(support_ellipsoid)) {
-        add_limb(b, k, of_b, 0, DIM, sizes);
+    support_fn *const f = s->support;
+    if (f == pub(support_origin)) return 1;
+    if (f == pub(support_box)) {
+        add_box(b, &k, of_b, sizes);
         return 1;
     }
-    if (s->support == pub(support_box)) {
-        for (int i = 0; i < DIM; i++) add_limb(b, k, of_b, i, 1, sizes + i);
-        return 1;
-    }
-    if (s->support == pub(support_ball)) {
+    if (f == pub(support_ellipsoid) || f == pub(support_ball)) {
         const real radii[3] = {sizes[0], sizes[0], sizes[0]};
-        add_limb(b, k, of_b, 0, DIM, radii);
+        add_limb(b, &k, of_b, 0, DIM, f == pub(support_ball) ? radii : sizes);
         return 1;
     }
 #if DIM == 3
-    if (s->support == pub(support_cylinder) || s->support == pub(support_disc)) {
-        const real radii[2] = {sizes[0], sizes[0]};
-        add_limb(b, k, of_b, 0, 2, radii);
-        if (s->support == pub(support_cylinder)) add_limb(b, k, of_b, 2, 1, sizes + 1);
+    if (f == pub(support_cone)) return add_cone(b, &k, of_b, sizes[0], sizes[1]);
+    if (f == pub(support_cylinder) || f == pub(support_disc)) {
+        add_cylinder(b, &k, of_b, sizes[0], f == pub(support_disc) ? 0 : sizes[1]);
         return 1;
     }
 #endif
-    return s->support == pub(support_origin);
+    return 0;
 }
 
 static int know_bulk(bulk *b, const difference *d, const shape *s, const shape *t)
@@ -83,6 +133,55 @@ static int know_bulk(bulk *b, const difference *d, const shape *s, const shape *
     b->limbs = 0;
     b->middle = mul(d->c, -1);
     return add_body(b, &d->a, 0, s) && add_body(b, &d->b, 1, t);
+}
+
+/* The body's axes along which heights have edges, as bits: of a box all, of a disc its own; of an ellipsoid none. */
+static inline unsigned edged_axes(const shape *s)
+{
+#if DIM == 3
+    support_fn *const f = s->support;
+    if (f == pub(support_cylinder) || f == pub(support_disc) || f == pub(support_cone)) return 4;
+#endif
+    return s->support == pub(support_box) ? (1u << DIM) - 1 : 0;
+}
+
+/* Whether one of these axes of a body is one of the other's, to rounding: edges and faces may lie on one another then,
+ * so that n is on more edges than tell their shares. A few corners find such a place. */
+static int are_aligned(const stand *a, unsigned axes_a, const stand *b, unsigned axes_b)
+{
+#if DIM == 3
+    for (int i = 0; i < DIM; i++)
+        for (int j = 0; j < DIM; j++) {
+            if (!(axes_a >> i & 1 && axes_b >> j & 1)) continue;
+            const vec u = unit_size(axis_by_map(a, i)), v = unit_size(axis_by_map(b, j)), n = cross(u, v);
+            if (dot(n, n) <= 4096 * UNIT * UNIT * (dot(u, u) * dot(v, v))) return 1;
+        }
+#else
+    (void)a, (void)axes_a, (void)b, (void)axes_b;
+#endif
+    return 0;
+}
+
+static int are_bodies_aligned(const difference *d, const shape *a, const shape *b)
+{
+    const stand k = stand_of(&d->a), l = stand_of(&d->b);
+    return are_aligned(&k, edged_axes(a), &l, edged_axes(b));
+}
+
+/* Whether it is known of the set, but for cones without a length or a disc. */
+static int has_heights(const shape *s)
+{
+    support_fn *const f = s->support;
+#if DIM == 3
+    if (f == pub(support_cylinder) || f == pub(support_disc) || f == pub(support_cone)) return 1;
+#endif
+    return f == pub(support_ellipsoid) || f == pub(support_box) || f == pub(support_ball) || f == pub(support_origin);
+}
+
+/* Of both, and one is round. */
+static inline int have_heights(const shape *a, const shape *b)
+{
+    return has_heights(a) && has_heights(b) && !(has_corners(a) && has_corners(b));
 }
 
 /* ---- slope and curvature ---- */
@@ -93,22 +192,26 @@ typedef struct quadric {
 } quadric;
 
 /* The height along n, and how it changes as n is turned across: of n + t with t across n, it is height + slope.t +
- * t.bow t / 2 to the second order. n may lie on edges of the height, where limbs have no length: they count as their
- * shares say, each within 1, and above that the height rises as the quadric kink has it. */
+ * t.bow t / 2 to the second order. n may lie on edges of the height: where limbs have no length, or a cone's is 0.
+ * There they count as their shares say, each within 1, and above that the height rises as the quadric kink has it. */
 typedef struct bent {
     vec n, e[ACROSS]; /* unit and square to one another, to rounding */
     real height, slope[ACROSS];
     quadric bow, kink;
+    quadric part;                                  /* of the bow, half of what cones' edges have */
     real slope_off, bow_off, kink_off, height_off; /* by so much these may be off */
     real sway;              /* farther off, by t, the bow may be less, by the factor 1 + sway |t| */
-    unsigned edges;         /* the limbs on whose edges n is to lie: */
+    unsigned edges, slants; /* the limbs on whose edges n is to lie; of these, a cone's that are 0: */
     int rows;               /*   so many rows in all, */
     int of[ACROSS];         /*   of these limbs, */
     real d[ACROSS][ACROSS]; /*   across, */
     real off[ACROSS];       /*   and how far n is from there; */
     real share[ACROSS];     /*   what the rows count for */
-    real sign[MOST_LIMBS];  /* as which other straight limbs count */
+    real sign[MOST_LIMBS];  /* as which straight limbs and cones' count, on slants by their shares as last known */
 } bent;
+
+static inline int is_on_edge(const bent *b, int i) { return (int)(b->edges >> i & 1); }
+static inline int is_on_slant(const bent *b, int i) { return (int)(b->slants >> i & 1); }
 
 static void put_across(vec n, vec e[ACROSS])
 {
@@ -138,32 +241,39 @@ static void add_straight(bent *b, const limb *l, real sign)
     for (int j = 0; j < ACROSS; j++) b->slope[j] += sign * dot(l->row[0], b->e[j]);
 }
 
-static void add_round(bent *b, const limb *l)
+/* |L n|, its slope, and its curvature times that. */
+static inline real add_round(bent *b, const limb *l, real times, real slope[ACROSS])
 {
-    const int rows = l->rows < DIM ? l->rows : DIM; /* never more; a compiler does not know */
-    real a[DIM] = {0}, d[DIM][ACROSS] = {{0}}, along[ACROSS], square = 0;
-    for (int r = 0; r < rows; r++) {
+    real a[DIM], d[DIM][ACROSS], square = 0;
+    for (int r = 0; r < DIM; r++) {
         a[r] = dot(l->row[r], b->n);
         square += a[r] * a[r];
         for (int j = 0; j < ACROSS; j++) d[r][j] = dot(l->row[r], b->e[j]);
     }
-    const real far = root(square), share = l->size / far;
-    b->height += far;
-    for (int j = 0; j < ACROSS; j++) {
-        along[j] = 0;
-        for (int r = 0; r < rows; r++) along[j] += a[r] / far * d[r][j];
-        b->slope[j] += along[j];
+    const real far = root(square), per = 1 / far, share = l->size * per, bow = per * times;
+    for (int j = 0; j < ACROSS; j++) slope[j] = 0;
+    for (int r = 0; r < DIM; r++) {
+        a[r] *= per;
+        for (int j = 0; j < ACROSS; j++) slope[j] += a[r] * d[r][j];
     }
-    for (int r = 0; r < rows; r++) {
-        for (int j = 0; j < ACROSS; j++) d[r][j] -= a[r] / far * along[j];
-        add_square(&b->bow, d[r], 1 / far);
+    for (int r = 0; r < DIM; r++) {
+        for (int j = 0; j < ACROSS; j++) d[r][j] -= a[r] * slope[j];
+        add_square(&b->bow, d[r], bow);
     }
     b->slope_off += 32 * UNIT * share * l->size;
     b->bow_off += 512 * UNIT * share * share * l->size;
     b->sway = larger(share, b->sway);
+    return far;
 }
 
-/* n is to lie on its edge. */
+static void add_whole(bent *b, const limb *l)
+{
+    real slope[ACROSS];
+    b->height += add_round(b, l, 1, slope);
+    for (int j = 0; j < ACROSS; j++) b->slope[j] += slope[j];
+}
+
+/* n is to lie where the limb has no length. */
 static void add_edge(bent *b, const limb *l, int at)
 {
     for (int r = 0; r < l->rows; r++, b->rows++) {
@@ -176,19 +286,91 @@ static void add_edge(bent *b, const limb *l, int at)
     b->kink_off += 128 * UNIT * l->size;
 }
 
-/* sign: of the straight limbs. */
-static void bent_at(const bulk *of, vec n, unsigned edges, const real sign[MOST_LIMBS], bent *b)
+#if DIM == 3
+/* Below 0 a cone's counts for nothing. */
+static void add_nothing(bent *b, const limb *l)
 {
-    *b = (bent){.n = n, .edges = edges, .height = dot(of->middle, n), .slope_off = 32 * UNIT};
+    const real x = dot(l->row[0], b->n), y = dot(l->row[1], b->n), here = root(x * x + y * y) + dot(l->lean, b->n);
+    const real slop = 16 * UNIT * l->steep;
+    if (!(here < -slop)) b->height_off += 2 * (size(here) + slop);
+}
+
+/* Above 0 for all that it is. */
+static void add_above(bent *b, const limb *l)
+{
+    const real slop = 16 * UNIT * l->steep;
+    real slope[ACROSS];
+    const real here = add_round(b, l, 1, slope) + dot(l->lean, b->n);
+    b->height += here;
+    if (!(here > slop)) b->height_off += 2 * (size(here) + slop);
+    for (int j = 0; j < ACROSS; j++) b->slope[j] += slope[j] + dot(l->lean, b->e[j]);
+}
+
+/* Where n is to lie between these, for half of it, and its share of the other half. */
+static void add_slant(bent *b, const limb *l, int at)
+{
+    const quadric before = b->bow;
+    real slope[ACROSS];
+    const real here = add_round(b, l, (1 + b->sign[at]) / 2, slope) + dot(l->lean, b->n);
+    for (int i = 0; i < ACROSS; i++)
+        for (int j = 0; j <= i; j++) b->part.c[i][j] += (b->bow.c[i][j] - before.c[i][j]) / 2;
+    b->of[b->rows] = at;
+    b->off[b->rows] = here / 2;
+    for (int j = 0; j < ACROSS; j++) {
+        b->d[b->rows][j] = (slope[j] + dot(l->lean, b->e[j])) / 2;
+        b->slope[j] += b->d[b->rows][j];
+    }
+    b->rows++;
+    b->height_off += 2 * (size(here) + 16 * UNIT * l->steep);
+    b->slope_off += 32 * UNIT * l->steep;
+    b->kink_off += 128 * UNIT * l->steep;
+}
+
+/* n is to lie along its axis, on the side of its disc. */
+static void add_base(bent *b, const limb *l, int at)
+{
+    add_edge(b, l, at);
+    b->height += dot(l->lean, b->n);
+    for (int j = 0; j < ACROSS; j++) b->slope[j] += dot(l->lean, b->e[j]);
+}
+#endif
+
+/* sign: see bent. */
+static void bent_at(const bulk *of, vec n, unsigned edges, unsigned slants, const real sign[MOST_LIMBS], bent *b)
+{
+    *b = (bent){.n = n, .edges = edges, .slants = slants, .height = dot(of->middle, n), .slope_off = 32 * UNIT};
     memcpy(b->sign, sign, sizeof b->sign);
     put_across(n, b->e);
     for (int j = 0; j < ACROSS; j++) b->slope[j] = dot(of->middle, b->e[j]);
     for (int i = 0; i < of->limbs; i++) {
         const limb *l = &of->limb[i];
-        if (edges >> i & 1) add_edge(b, l, i);
+#if DIM == 3
+        if (l->partial) {
+            if (is_on_slant(b, i)) add_slant(b, l, i);
+            else if (is_on_edge(b, i)) add_base(b, l, i);
+            else if (sign[i] < 0) add_nothing(b, l);
+            else add_above(b, l);
+            continue;
+        }
+#endif
+        if (is_on_edge(b, i)) add_edge(b, l, i);
         else if (l->rows == 1) add_straight(b, l, sign[i]);
-        else add_round(b, l);
+        else add_whole(b, l);
     }
+}
+
+/* The height of A - B along n. */
+static real height_of_bulk(const bulk *of, vec n)
+{
+    real height = dot(of->middle, n);
+    for (int k = 0; k < of->limbs; k++) {
+        const limb *l = &of->limb[k];
+        vec a = axis(0, 0);
+        EACH(a.c[i] = dot(l->row[i], n));
+        const real far = length(a), here = l->partial ? far + dot(l->lean, n) : far;
+        height += larger(here, 0);
+    }
+    return height;
 }
 
 /* The least value of the quadric on unit vectors. */
@@ -212,25 +394,46 @@ static inline real length_across(const real t[ACROSS])
 /* ---- the way out nearby ---- */
 
 /* So often a direction is turned toward it, by so much at most. */
-#define ROLLS 16
+#define ROLLS 24
 #define ROLL ((real)0.5)
 
 /* One way across: down, to where there would be no slope if it is bowed. */
-static inline real roll_along(real slope, real bow, real height)
+static inline real roll_along(real slope, real bow, real height, real most)
 {
     real k = bow > height ? bow - height : bow;
-    return size(slope) < ROLL * k ? -slope / k : slope > 0 ? -ROLL : ROLL;
+    return size(slope) < most * k ? -slope / k : slope > 0 ? -most : most;
 }
 
 #if DIM == 2
-static void roll(bent *b, real t[1])
+static void roll(bent *b, real most, real t[1])
 {
-    t[0] = b->rows ? -b->off[0] / b->d[0][0] : roll_along(b->slope[0], b->bow.c[0][0], b->height);
+    t[0] = b->rows ? -b->off[0] / b->d[0][0] : roll_along(b->slope[0], b->bow.c[0][0], b->height, most);
     if (b->rows) b->share[0] = -b->slope[0] / b->d[0][0];
 }
 #else
-/* n is to stay on one edge. */
-static void roll_on_edge(bent *b, real t[2])
+/* Solves for the turn at which the slope would be gone, if the height were bowed by so much more all around. 0: it is
+ * too narrow a valley to tell. */
+static inline int turn_by(const bent *b, const real slope[2], real more, real t[2])
+{
+    const real p = b->bow.c[0][0] + more, q = b->bow.c[1][1] + more, r = b->bow.c[1][0], whole = p * q - r * r;
+    t[0] = (r * slope[1] - q * slope[0]) / whole;
+    t[1] = (r * slope[0] - p * slope[1]) / whole;
+    return b->height < 0 || whole > (real)0x1p-12 * (p * p + q * q);
+}
+
+/* How much more the height is to count as bowed, off edges, where it has that slope: to where the height, and not the
+ * height of the same over n's length, would have none (Newton); or, where it is not bowed like that, or that is too
+ * far, so much that the turn is no longer than most (Levenberg). */
+static real more_bow(const bent *b, const real slope[2], real most)
+{
+    real t[2];
+    if (least_value(&b->bow) > b->height && turn_by(b, slope, -b->height, t) && length_across(t) <= most)
+        return -b->height;
+    return larger(-b->height, 0) + length_across(slope) / most;
+}
+
+/* n is to stay on one edge. What share that has is told as n would be turned without it. */
+static void roll_on_edge(bent *b, real most, real t[2])
 {
     const real *d = b->d[0], l = length_across(d), along[2] = {d[0] / l, d[1] / l}, across[2] = {-along[1], along[0]};
     const quadric *f = &b->bow;
@@ -238,10 +441,12 @@ static void roll_on_edge(bent *b, real t[2])
                        across[1] * (f->c[1][0] * along[0] + f->c[1][1] * along[1]);
     const real bow = across[0] * across[0] * f->c[0][0] + 2 * across[0] * across[1] * f->c[1][0] +
                      across[1] * across[1] * f->c[1][1];
-    const real back = -b->off[0] / l, slope = b->slope[0] * across[0] + b->slope[1] * across[1] + mixed * back;
-    const real on = roll_along(slope, bow, b->height);
+    const real back = -b->off[0] / l, steep = b->slope[0] * along[0] + b->slope[1] * along[1];
+    const real slope = b->slope[0] * across[0] + b->slope[1] * across[1] + mixed * back;
+    const real on = roll_along(slope, bow, b->height, most), side = steep > 0 ? -1 : 1;
+    const real beside[2] = {b->slope[0] + side * d[0], b->slope[1] + side * d[1]};
     for (int j = 0; j < 2; j++) t[j] = back * along[j] + on * across[j];
-    b->share[0] = -(b->slope[0] * along[0] + b->slope[1] * along[1] + mixed * on) / l;
+    b->share[0] = -(steep - mixed * slope / (bow + more_bow(b, beside, most))) / l;
 }
 
 /* n is where two edges meet, or on the point of one. */
@@ -257,23 +462,11 @@ static void roll_to_corner(bent *b, real t[2])
 
 /* How the direction is to turn: to where the height, and not the height of the same over n's length, would have no
  * slope (Newton); or, where it is not bowed like that, at least down. And what shares edges have then. */
-static void roll(bent *b, real t[2])
+static void roll(bent *b, real most, real t[2])
 {
-    if (b->rows == 2) {
-        roll_to_corner(b, t);
-        return;
-    }
-    if (b->rows == 1) {
-        roll_on_edge(b, t);
-        return;
-    }
-    const real level = least_value(&b->bow) > b->height ? b->height : 0;
-    const real p = b->bow.c[0][0] - level, q = b->bow.c[1][1] - level, r = b->bow.c[1][0], whole = p * q - r * r;
-    t[0] = (r * b->slope[1] - q * b->slope[0]) / whole;
-    t[1] = (r * b->slope[0] - p * b->slope[1]) / whole;
-    if (whole > (real)0x1p-12 * (p * p + q * q) && level >= 0) return;
-    const real steep = length_across(b->slope), k = larger(p, larger(q, steep / ROLL));
-    for (int j = 0; j < 2; j++) t[j] = -b->slope[j] / k;
+    if (b->rows == 2) roll_to_corner(b, t);
+    else if (b->rows == 1) roll_on_edge(b, most, t);
+    else turn_by(b, b->slope, more_bow(b, b->slope, most), t);
 }
 #endif
 
@@ -286,156 +479,202 @@ static real share_of_limb(const bent *b, int at)
     return root(square);
 }
 
-/* The limb whose share is above 1, the most so; -1: none. */
-static int limb_let_go(const bent *b)
+/* The limb whose share is above 1, or no number, the most so, but for that one; -1: none. */
+static int limb_let_go(const bent *b, int but)
 {
     int worst = -1;
     real most = 1;
     for (int r = 0; r < b->rows; r++) {
         const real here = share_of_limb(b, b->of[r]);
-        if (!(here > most)) continue;
+        if (here <= most || b->of[r] == but) continue;
         most = here;
         worst = b->of[r];
     }
     return worst;
 }
 
-/* The limb to whose edge the turn t leads first, and how much of the turn that takes; -1: none. */
-static int limb_met(const bulk *of, const bent *b, const real sign[MOST_LIMBS], unsigned shut, const real t[ACROSS],
-                    real *part)
+static inline vec turn_of(const bent *b, const real t[ACROSS])
 {
-    int met = -1;
     vec turn = mul(b->e[0], t[0]);
-    if (ACROSS > 1) turn = add(turn, mul(b->e[ACROSS - 1], t[ACROSS - 1]));
-    *part = 1;
+    return ACROSS > 1 ? add(turn, mul(b->e[ACROSS - 1], t[ACROSS - 1])) : turn;
+}
+
+/* The first edge on the way. */
+typedef struct meeting {
+    int limb, slant; /* -1: none */
+    real part;       /* of the turn that leads there */
+} meeting;
+
+/* What is so much here, and changes by so much on the way, counts as its sign says: where that would be wrong is an
+ * edge. */
+static inline void meet_edge(meeting *m, int at, int slant, real here, real way, real sign)
+{
+    if (!((here + way * m->part) * sign < 0)) return;
+    m->part = larger(0, smaller(-here / way, m->part));
+    m->limb = at;
+    m->slant = slant;
+}
+
+/* Whether the turn leads toward where the round limb has no length, from not far away. */
+static inline int leads_to_point(const limb *l, vec n, vec turn)
+{
+    const real x = dot(l->row[0], n), y = dot(l->row[1], n), to_x = dot(l->row[0], turn), to_y = dot(l->row[1], turn);
+    const real off = x * x + y * y;
+    return off <= l->size * l->size / 64 && 4 * (to_x * to_x + to_y * to_y) >= off;
+}
+
+/* The limb to whose edge the turn t leads first. */
+static meeting limb_met(const bulk *of, const bent *b, unsigned shut, const real t[ACROSS])
+{
+    meeting m = {-1, 0, 1};
+    const vec turn = turn_of(b, t);
     for (int i = 0; i < of->limbs; i++) {
         const limb *l = &of->limb[i];
-        if ((b->edges >> i & 1) || b->rows + l->rows > ACROSS) continue;
-        const real here = dot(l->row[0], b->n), way = dot(l->row[0], turn);
-        if (l->rows > 1) {
-            const real beside = dot(l->row[1], b->n);
-            if ((shut >> i & 1) || here * here + beside * beside > l->size * l->size / 64) continue;
-            *part = 0;
-            return i;
-        }
-        if (!((here + way * *part) * sign[i] < 0)) continue;
-        *part = larger(0, smaller(-here / way, *part));
-        met = i;
+        if (is_on_edge(b, i)) continue;
+        if (l->rows > 1 && !(shut >> i & 1) && b->rows + l->rows <= ACROSS && leads_to_point(l, b->n, turn) &&
+            (!l->partial || dot(l->lean, b->n) > 0))
+            return (meeting){i, 0, 0};
+        if (b->rows == ACROSS) continue;
+        if (l->rows == 1) meet_edge(&m, i, 0, dot(l->row[0], b->n), dot(l->row[0], turn), b->sign[i]);
+        if (!l->partial) continue;
+        const real x = dot(l->row[0], b->n), y = dot(l->row[ACROSS - 1], b->n), far = root(x * x + y * y);
+        const real to = (x * dot(l->row[0], turn) + y * dot(l->row[ACROSS - 1], turn)) / far + dot(l->lean, turn);
+        meet_edge(&m, i, 1, far + dot(l->lean, b->n), to, b->sign[i]);
     }
-    return met;
+    return m;
 }
 
-/* What edges add. */
+/* What edges add. A cone's have half of their curvature, and half of their kink. */
 static void add_kinks(const bulk *of, bent *b)
 {
+    for (int i = 0; i < ACROSS; i++)
+        for (int j = 0; j <= i; j++) b->bow.c[i][j] -= b->part.c[i][j];
     for (int r = 0; r < b->rows; r++) {
         const limb *l = &of->limb[b->of[r]];
+        const real size = is_on_slant(b, b->of[r]) ? l->steep : l->size;
         for (int j = 0; j < ACROSS; j++) b->slope[j] += b->share[r] * b->d[r][j];
-        add_square(&b->kink, b->d[r], 2 * (1 - share_of_limb(b, b->of[r])) / l->size);
+        add_square(&b->kink, b->d[r], 2 * (1 - share_of_limb(b, b->of[r])) / size);
     }
 }
 
-/* The signs of straight limbs, but for those whose edge n is on. */
-static void tell_signs(const bulk *of, vec n, real sign[MOST_LIMBS])
+/* The signs of straight limbs and of cones', but for those whose edge n is on. */
+static void tell_signs(const bulk *of, vec n, unsigned edges, real sign[MOST_LIMBS])
 {
     for (int i = 0; i < of->limbs; i++) {
-        const real here = dot(of->limb[i].row[0], n);
-        if (size(here) > 64 * UNIT * of->limb[i].size) sign[i] = here < 0 ? -1 : 1;
+        const limb *l = &of->limb[i];
+        if (edges >> i & 1 || (l->rows > 1 && !l->partial)) continue;
+        real here = dot(l->row[0], n);
+        if (l->partial)
+            here = root(here * here + dot(l->row[ACROSS - 1], n) * dot(l->row[ACROSS - 1], n)) + dot(l->lean, n);
+        if (size(here) > 64 * UNIT * (l->partial ? l->steep : l->size)) sign[i] = here < 0 ? -1 : 1;
     }
 }
 
-/* Turns n to where the height is least nearby. 0: it is not found. */
-static int find_least(const bulk *of, vec n, bent *b)
+/* Where a round limb is let go, at whose point n is: a way beside that, on the side that its shares say. */
+static vec beside_point(const bent *b, const limb *l)
 {
-    real sign[MOST_LIMBS] = {0}, part;
-    unsigned edges = 0, shut = 0;
+    real t[ACROSS] = {0}, bow = 0;
+    for (int r = 0; r < b->rows; r++)
+        for (int j = 0; j < ACROSS; j++) t[j] += b->share[r] * b->d[r][j];
+    const real far = length_across(t);
+    for (int i = 0; i < ACROSS; i++)
+        for (int j = 0; j <= i; j++) bow += (i == j ? 1 : 2) * b->bow.c[i][j] * (t[i] / far) * (t[j] / far);
+    const real stiff = bow - b->height, off = (length_across(b->share) - 1) * l->size;
+    const real by = stiff * (real)0.125 > off ? off / stiff : (real)0.125;
+    for (int j = 0; j < ACROSS; j++) t[j] *= by / far;
+    const vec n = add(b->n, turn_of(b, t));
+    return mul(n, 1 / length(n));
+}
+
+/* No more is to be had by the turn t, so far, than roundings are. */
+static int is_at_rest(const bent *b, const real t[ACROSS], real far)
+{
+    real drop = 0;
+    for (int r = 0; r < b->rows; r++) {
+        const real off = is_on_slant(b, b->of[r]) ? b->share[r] - b->sign[b->of[r]] : 0;
+        if (off * off > 4 * UNIT) return 0;
+    }
+    if (far * far <= 4 * UNIT) return 1;
+    for (int j = 0; j < ACROSS; j++) drop += b->slope[j] * t[j];
+    for (int r = 0; r < b->rows; r++)
+        for (int j = 0; j < ACROSS; j++) drop += b->share[r] * b->d[r][j] * t[j];
+    return b->rows < ACROSS && size(drop) <= 4 * UNIT * far;
+}
+
+/* Of edges that n is to lie on, those that their shares let go are left. -1: none. */
+static int let_go(const bulk *of, const bent *b, int but, vec *n, real sign[MOST_LIMBS])
+{
+    const int gone = limb_let_go(b, but);
+    if (gone < 0) return -1;
+    sign[gone] = 1;
+    if (of->limb[gone].rows > 1 && !is_on_slant(b, gone)) {
+        *n = beside_point(b, &of->limb[gone]);
+        return gone;
+    }
+    for (int r = 0; r < b->rows; r++)
+        if (b->of[r] == gone) sign[gone] = b->share[r] < 0 ? -1 : 1;
+    return gone;
+}
+
+/* The shares of slants, for the curvature there. */
+static inline void keep_shares(const bent *b, real sign[MOST_LIMBS])
+{
+    for (int r = 0; r < b->rows; r++)
+        if (is_on_slant(b, b->of[r])) sign[b->of[r]] = larger(-1, smaller(1, b->share[r]));
+}
+
+/* As the curvature has them. */
+static inline void take_shares(bent *b)
+{
+    for (int r = 0; r < b->rows; r++)
+        if (is_on_slant(b, b->of[r])) b->share[r] = b->sign[b->of[r]];
+}
+
+/* So near to a way where heights are known to be the least nearby a direction is given up. */
+#define CLOSE_BY ((real)0.9)
+
+/* Turns n to where the height is least nearby, edges and all: each roll goes as far as the first edge on the way, or
+ * on along those that n lies on, till their shares let one go. 0: it is not found, or leads to the one known, if any.
+ */
+static int find_least(const bulk *of, vec n, const vec *known, bent *b)
+{
+    real sign[MOST_LIMBS] = {0}, most = ROLL, last = REAL_MAX, t[ACROSS];
+    unsigned edges = 0, slants = 0, shut = 0;
+    int left = -1, held = -1;
     for (int i = 0; i < of->limbs; i++) sign[i] = dot(of->limb[i].row[0], n) < 0 ? -1 : 1;
-    for (int i = 0; i < ROLLS; i++) {
-        real t[ACROSS];
-        tell_signs(of, n, sign);
-        bent_at(of, n, edges, sign, b);
-        roll(b, t);
-        const real far = length_across(t), share = far > ROLL ? ROLL / far : 1;
-        const int gone = limb_let_go(b);
+    for (int i = 0; i < ROLLS && !(known && dot(n, *known) > CLOSE_BY); i++) {
+        tell_signs(of, n, left < 0 ? edges : edges | 1u << left, sign);
+        bent_at(of, n, edges, slants, sign, b);
+        most = b->height > last + 64 * UNIT ? most / 2 : smaller((real)1.25 * most, ROLL);
+        last = b->height;
+        roll(b, most, t);
+        const real far = length_across(t), share = far > most ? most / far : 1;
         if (!(far <= REAL_MAX)) return 0;
+        const int gone = b->rows < ACROSS || far * far <= 4 * UNIT ? let_go(of, b, held, &n, sign) : -1;
         if (gone >= 0) {
-            for (int r = 0; r < b->rows; r++)
-                if (b->of[r] == gone) sign[gone] = b->share[r] < 0 ? -1 : 1;
             edges &= ~(1u << gone);
+            slants &= ~(1u << gone);
             shut |= 1u << gone;
+            left = gone;
             continue;
         }
+        keep_shares(b, sign);
         for (int j = 0; j < ACROSS; j++) t[j] *= share;
-        const int met = limb_met(of, b, sign, shut, t, &part);
-        if (met >= 0) edges |= 1u << met;
-        for (int j = 0; j < ACROSS; j++) n = add(n, mul(b->e[j], part * t[j]));
+        const meeting m = limb_met(of, b, shut, t);
+        if (m.limb >= 0) edges |= 1u << m.limb;
+        if (m.slant) slants |= 1u << m.limb;
+        held = m.limb == left && m.part * far <= 64 * UNIT ? left : -1;
+        left = -1;
+        n = add(n, mul(turn_of(b, t), m.part));
         n = mul(n, 1 / length(n));
-        if (met >= 0 || far * far > 4 * UNIT) continue;
-        bent_at(of, n, edges, sign, b);
-        roll(b, t);
+        if (m.limb >= 0 || !is_at_rest(b, t, far)) continue;
+        bent_at(of, n, edges, slants, sign, b);
+        roll(b, most, t);
+        take_shares(b);
         add_kinks(of, b);
-        return limb_let_go(b) < 0;
+        return limb_let_go(b, -1) < 0;
     }
     return 0;
-}
-
-/* ---- its proof ---- */
-
-/* Where the height of A - B is least nearby: along n. Around there it is proven by curvature, not by facets. In their
- * place a polytope takes in a tip that is no corner, but stands out of A - B: `at`, along n. It is of account only to
- * ways along which it is higher than what is to be proven, and these are near n. */
-typedef struct dip {
-    vec n, at;
-    vertex corner;          /* along n, */
-    real below;             /* and the bound from below that it gave */
-    real height;            /* of A - B along n, at least */
-    quadric bow, kink;      /* see bent, */
-    real bow_off, kink_off; /*   off by no more; */
-    real slope, sway;       /*   at most */
-    real floor;             /* no way out that is near n, as far as `at` is of account, is shorter */
-    int planted;            /* `at` is in the polytope, */
-    int frayed;             /*   and facets around it have been dropped */
-} dip;
-
-/* How far from n, as a tangent, ways lead along which the tip is higher than r. */
-static real reach_of_tip(const dip *f, real r)
-{
-    const real share = length(f->at) * (1 + 8 * UNIT) / r;
-    return root(larger(share * share - 1, 0) + 32 * UNIT) * (1 + 32 * UNIT);
-}
-
-/* How much the height is bowed, kinks and all, as seen from that far at least. */
-static real bow_within(const dip *f, real far)
-{
-    quadric sum;
-    const real k = 1 / (1 + f->sway * far), l = 1 / far;
-    for (int i = 0; i < ACROSS; i++)
-        for (int j = 0; j <= i; j++) sum.c[i][j] = k * f->bow.c[i][j] + l * f->kink.c[i][j];
-    return least_value(&sum) - f->bow_off - l * f->kink_off -
-           32 * UNIT * (size(sum.c[0][0]) + size(sum.c[ACROSS - 1][ACROSS - 1]));
-}
-
-/* Along ways that lead no farther from n A - B is at least as high as this, if it is to be as high as r. */
-static real floor_near(const dip *f, real far, real r)
-{
-    const real bow = bow_within(f, far) - r * (1 + 8 * UNIT);
-    if (!(bow > UNIT && far < 8)) return -REAL_MAX;
-    return f->height - 8 * UNIT * r - f->slope * f->slope / bow;
-}
-
-#define NEAREST ((real)0x1p-12)
-
-/* Takes what is known of the height along n. 0: nothing is proven by it. */
-static int set_tip(dip *f)
-{
-    const real spare = smaller(f->height, bow_within(f, NEAREST) - f->height) / 4;
-    real far = 1;
-    f->planted = f->frayed = 0;
-    if (!(spare > 0)) return 0;
-    while (far > NEAREST && !(bow_within(f, far) >= f->height + spare)) far *= (real)0.75;
-    f->floor = floor_near(f, far, f->height);
-    f->at = mul(f->n, f->floor * root(1 + (real)0.9375 * far * far));
-    return f->floor > 0;
 }
 
 static inline void put_length(const limb *l, int k, real share, vertex *c)
@@ -444,13 +683,33 @@ static inline void put_length(const limb *l, int k, real share, vertex *c)
     else c->x.c[l->first + k] = share * l->length[k];
 }
 
+#if DIM == 3
+/* The cone's point. */
+static void put_on_cone(const bent *b, const limb *l, int at, vertex *c)
+{
+    const int base = is_on_edge(b, at) && !is_on_slant(b, at);
+    const real times = base ? 1 : (1 + b->sign[at]) / 2, x = dot(l->row[0], b->n), y = dot(l->row[1], b->n);
+    const real per = times > 0 ? times / root(x * x + y * y) : 0, s = base ? b->share[0] : x * per,
+               t = base ? b->share[1] : y * per;
+    const vec p = {{s * l->length[0], t * l->length[1], (1 - 2 * times) * l->length[2]}};
+    if (l->of_b) c->y = (vec){{-p.c[0], -p.c[1], p.c[2]}};
+    else c->x = p;
+}
+#endif
+
 /* Of the bodies' points what straight limbs and edges make: as they count, not as rounding has it. */
 static void share_out(const bulk *of, const bent *b, vertex *c)
 {
     for (int i = 0; i < of->limbs; i++) {
         const limb *l = &of->limb[i];
         int k = 0;
-        if (!(b->edges >> i & 1) && l->rows == 1) put_length(l, 0, b->sign[i], c);
+#if DIM == 3
+        if (l->partial) {
+            put_on_cone(b, l, i, c);
+            continue;
+        }
+#endif
+        if (!is_on_edge(b, i) && l->rows == 1) put_length(l, 0, b->sign[i], c);
         for (int r = 0; r < b->rows; r++)
             if (b->of[r] == i) put_length(l, k++, b->share[r], c);
     }

@@ -8,6 +8,7 @@
 #define GJK_CORE_SOLID_H
 
 #include "axes.h"
+#include "round.h"
 #include "stride.h"
 #include "widen.h"
 
@@ -337,26 +338,75 @@ static inline int turn_to_gap(const couplet *k, vec *way, vec *middle)
     return 0;
 }
 
-/* Two ellipsoids that the first corner leaves open: the corner along that way shows them to be apart, or the middle of
- * both points there is in both. 0: neither. */
-static APART int tell_ellipsoids(couplet *k)
+/* ---- along a way on which they may be the farthest apart ---- */
+
+/* The corner least along the way, which is to be of length 1, and the bodies' points there. */
+static void look_along_way(couplet *k, vec way, vec *x, vec *y)
 {
-    vec way, middle;
-    if (!turn_to_gap(k, &way, &middle)) return 0;
-    const vec x = mul(seen_by_solid(&k->a, middle), k->per[0]);
-    const vec y = mul(seen_by_solid(&k->b, sub(middle, k->c)), k->per[1]);
+    *x = point_of_solid(&k->a, seen_by_solid(&k->a, mul(way, -1)));
+    *y = point_of_solid(&k->b, seen_by_solid(&k->b, way));
     k->v = way;
-    k->e.a = put_in_place(&k->a, point_of_solid(&k->a, seen_by_solid(&k->a, mul(way, -1))));
-    k->e.b = put_in_place(&k->b, point_of_solid(&k->b, seen_by_solid(&k->b, way)));
+    k->e.a = put_in_place(&k->a, *x);
+    k->e.b = put_in_place(&k->b, *y);
     k->e.w = sub(k->e.a, add(k->e.b, k->c));
     k->e.height = dot(way, k->e.w);
     k->steps++;
     k->calls += 2;
-    if (!(k->e.height > 0)) return meet_at(k, x, y, left_of(gauge_of(&k->a, x)), left_of(gauge_of(&k->b, y)));
-    weigh_evidence(&k->e, way, k->doubt);
-    if (!(k->e.lower > 0)) return 0;
-    keep_apart(k, &k->e, way, 1);
+}
+
+/* It shows them to be apart; or that point, from a's middle, is in both. 0: neither. */
+static int tell_there(couplet *k, vec middle)
+{
+    if (k->e.height > 0) {
+        weigh_evidence(&k->e, k->v, k->doubt);
+        if (!(k->e.lower > 0)) return 0;
+        keep_apart(k, &k->e, k->v, 1);
+        return 1;
+    }
+    const vec x = mul(seen_by_solid(&k->a, middle), k->per[0]);
+    const vec y = mul(seen_by_solid(&k->b, sub(middle, k->c)), k->per[1]);
+    return meet_at(k, x, y, left_of(gauge_of(&k->a, x)), left_of(gauge_of(&k->b, y)));
+}
+
+/* Two ellipsoids that the first corner leaves open. 0: they still are. */
+static APART int tell_ellipsoids(couplet *k)
+{
+    vec way, middle, x, y;
+    if (!turn_to_gap(k, &way, &middle)) return 0;
+    look_along_way(k, way, &x, &y);
+    return tell_there(k, middle);
+}
+
+/* What the solid adds to the heights of the difference. */
+static int add_solid(bulk *b, const solid *k, const stand *s, int of_b)
+{
+    const vec size = k->size;
+    if (k->kind == IS_CONE) return add_cone(b, s, of_b, size.c[0], size.c[2]);
+    if (k->kind == IS_CYLINDER) add_cylinder(b, s, of_b, size.c[0], size.c[2]);
+    if (k->kind == IS_ELLIPSOID) add_limb(b, s, of_b, 0, DIM, size.c);
+    if (k->kind == IS_BOX) add_box(b, s, of_b, size.c);
     return 1;
+}
+
+static inline unsigned edged_axes_of(const solid *k) { return k->kind == IS_BOX ? 7 : k->kind == IS_ELLIPSOID ? 0 : 4; }
+
+/* The same of any two, by a dip of the heights. */
+static APART int tell_by_dip(couplet *k)
+{
+    bulk of;
+    bent at;
+    vertex p;
+    const real level = leveler(k->doubt * (1 / GLANCE_DOUBT));
+    const stand a = {k->a.m, 1, level}, b = {k->b.m, 1, level};
+    of.limbs = 0;
+    of.middle = mul(k->c, -level);
+    if (are_aligned(&a, edged_axes_of(&k->a), &b, edged_axes_of(&k->b))) return 0;
+    if (!add_solid(&of, &k->a, &a, 0) || !add_solid(&of, &k->b, &b, 1)) return 0;
+    if (!find_least(&of, mul(k->c, 1 / length(k->c)), NULL, &at)) return 0;
+    look_along_way(k, mul(at.n, -1), &p.x, &p.y);
+    share_out(&of, &at, &p);
+    const vec middle = add(put_in_place(&k->a, p.x), add(put_in_place(&k->b, p.y), k->c));
+    return tell_there(k, mul(middle, (real)0.5));
 }
 
 /* ---- more corners ---- */
@@ -472,7 +522,7 @@ static inline enum glanced tell_couplet(couplet *k, search *q, int max_steps)
     know_axes(k);
     if (!(k->e.height > 0) && meet_on_line(k)) return TELLING;
     const int ellipsoids = k->a.kind == IS_ELLIPSOID && k->b.kind == IS_ELLIPSOID;
-    if (ellipsoids && max_steps > 2 && tell_ellipsoids(k)) return TELLING;
+    if (max_steps > 2 && (ellipsoids ? tell_ellipsoids(k) : tell_by_dip(k))) return TELLING;
     if (ellipsoids && HAS_SISTER) return IN_VAIN; /* she has the digits */
     return stride_on_solids(k, q, max_steps / 2 < MOST_STRIDES ? max_steps / 2 : MOST_STRIDES) ? TELLING : IN_VAIN;
 }

@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: MIT */
+/* Round sets from inside: a variant is compiled in. Where the height of a difference is said to be the least nearby,
+ * and how high curvature says that it is at least around there, is held against heights of 113 bits: no bracket would
+ * show that the former is worse than it should be, and few pairs need all that the latter says. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <cmocka.h>
+#include "quad.h"
+#include "splitmix.h"
+
+#if VARIANT_DIM == 2
+#include "../src/gjk2.c"
+#else
+#include "../src/gjk3.c"
+#endif
+
+#define PAIRS 4000
+#define TURNS_EACH 40 /* from each of them */
+
+static uint64_t state_of_draws;
+
+static double any_between(double least, double most)
+{
+    return least + (most - least) * ((double)(splitmix64(&state_of_draws) >> 11) / 0x1p53);
+}
+
+/* ---- pairs ---- */
+
+static support_fn *const kinds[] = {pub(support_ellipsoid), pub(support_ball),
+                                    pub(support_box),
+#if DIM == 3
+                                    pub(support_cone),      pub(support_cylinder),
+                                    pub(support_disc)
+#endif
+};
+#define KINDS (int)(sizeof kinds / sizeof *kinds)
+
+static real numbers[2][3];
+static pose poses[2];
+static shape shapes[2];
+static search q;
+
+static void draw_turn(real m[DIM * DIM])
+{
+#if DIM == 2
+    double angle[2] = {any_between(-1, 1), any_between(-1, 1)}, l = sqrt(angle[0] * angle[0] + angle[1] * angle[1]);
+    m[0] = m[3] = angle[0] / l;
+    m[1] = -(m[2] = angle[1] / l);
+#else
+    double u[4], l = 0;
+    for (int i = 0; i < 4; i++) {
+        u[i] = any_between(-1, 1);
+        l += u[i] * u[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            const int k = 3 - i - j;
+            const double sign = (j - i + 3) % 3 == 1 ? -1 : 1;
+            m[3 * i + j] =
+                i == j ? 1 - 2 * (l - u[3] * u[3] - u[i] * u[i]) / l : 2 * (u[i] * u[j] + sign * u[k] * u[3]) / l;
+        }
+    }
+#endif
+}
+
+/* Two of these sets, turned, at most so far apart, from middle to middle; not both boxes. */
+static void draw_pair(support_fn *a, support_fn *b, double apart)
+{
+    for (int k = 0; k < 2; k++) {
+        shapes[k] = (shape){k ? b : a, numbers[k], &poses[k], 0};
+        draw_turn(poses[k].m);
+        for (int i = 0; i < 3; i++) {
+            numbers[k][i] = any_between(0.1, 1);
+        }
+        for (int i = 0; i < DIM; i++) {
+            poses[k].p[i] = any_between(-apart, apart) / 2;
+        }
+    }
+}
+
+static void draw_any_pair(int k, double apart)
+{
+    support_fn *const a = kinds[k % KINDS], *b = kinds[k / KINDS % KINDS];
+    draw_pair(a, a == pub(support_box) && b == a ? kinds[0] : b, apart);
+}
+
+/* ---- heights of 113 bits ---- */
+
+static quad quad_length_of(const quad *x, int n)
+{
+    quad sum = 0;
+    for (int i = 0; i < n; i++) {
+        sum += x[i] * x[i];
+    }
+    return quad_sqrt(sum);
+}
+
+/* The height of the set along n times sign, as the search's frame has it, from the body's position. */
+static quad height_of_set(int which, const quad n[DIM], int sign)
+{
+    const real *s = numbers[which], *m = poses[which].m;
+    support_fn *const f = shapes[which].support;
+    quad g[3] = {0}, sum = 0;
+    for (int j = 0; j < DIM; j++) {
+        for (int i = 0; i < DIM; i++) {
+            g[j] += (quad)m[DIM * i + j] * n[i] * sign;
+        }
+    }
+    if (f == pub(support_ball)) {
+        return (quad)s[0] * quad_length_of(g, DIM);
+    }
+    for (int i = 0; i < DIM; i++) {
+        sum += (quad)s[i] * quad_abs(g[i]);
+    }
+    if (f == pub(support_box)) {
+        return sum;
+    }
+#if DIM == 3
+    const quad aside = quad_length_of(g, 2);
+    if (f == pub(support_disc)) {
+        return (quad)s[0] * aside;
+    }
+    if (f == pub(support_cylinder)) {
+        return (quad)s[0] * aside + (quad)s[1] * quad_abs(g[2]);
+    }
+    if (f == pub(support_cone)) {
+        const quad rim = (quad)s[0] * aside - (quad)s[1] * g[2], apex = (quad)s[1] * g[2];
+        return rim > apex ? rim : apex;
+    }
+#endif
+    for (int i = 0; i < DIM; i++) {
+        g[i] *= (quad)s[i];
+    }
+    return quad_length_of(g, DIM);
+}
+
+/* That of A - B, in the frame. */
+static quad height_along_way(const quad n[DIM])
+{
+    quad h = height_of_set(0, n, 1) + height_of_set(1, n, -1);
+    for (int i = 0; i < DIM; i++) {
+        h -= ((quad)poses[1].p[i] - (quad)poses[0].p[i]) * n[i];
+    }
+    return h * (quad)q.d.scale;
+}
+
+/* n turned by t across, not brought to length 1. */
+static void turned_by(const bent *b, const double t[ACROSS], quad n[DIM])
+{
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)b->n.c[i];
+        for (int j = 0; j < ACROSS; j++) {
+            n[i] += (quad)t[j] * (quad)b->e[j].c[i];
+        }
+    }
+}
+
+/* ---- the tests ---- */
+
+static bulk of_both;
+static bent least;
+
+/* Where the height is the least near the line of centres, or near any way; 0: that is not found. */
+static int find_dip(int anywhere)
+{
+    vec n;
+    q.d.calls = 0;
+    if (!open_cold(&q, &shapes[0], &shapes[1], 0) || !know_bulk(&of_both, &q.d, &shapes[0], &shapes[1])) {
+        return 0;
+    }
+    EACH(n.c[i] = anywhere ? (real)any_between(-1, 1) : q.d.c.c[i]);
+    return find_least(&of_both, mul(n, 1 / length(n)), NULL, &least);
+}
+
+/* A turn by at most so much: anywhere, or along an edge that n is on and hardly off it. */
+static void draw_turn_across(double far, double t[ACROSS])
+{
+    for (int j = 0; j < ACROSS; j++) {
+        t[j] = any_between(-far, far) / ACROSS;
+    }
+#if DIM == 3
+    if (least.rows > 0 && any_between(0, 1) < 0.5) {
+        const double *d = least.d[0], l = sqrt(d[0] * d[0] + d[1] * d[1]), on = any_between(-far, far) / 2;
+        const double off = on * on * any_between(-4, 4);
+        t[0] = (-d[1] * on + (size(off) < far / 2 ? off : 0) * d[0]) / l;
+        t[1] = (d[0] * on + (size(off) < far / 2 ? off : 0) * d[1]) / l;
+    }
+#endif
+}
+
+/* Along no way nearby is the height of a unit vector less, and the point that shares make is right above the origin. */
+static void it_is_the_least_nearby(void **state)
+{
+    long found = 0, exact = 0;
+    (void)state;
+    state_of_draws = 1;
+    for (int k = 0; k < PAIRS; k++) {
+        draw_any_pair(k, 4);
+        if (!find_dip(k % 2)) {
+            continue;
+        }
+        quad n[DIM];
+        turned_by(&least, (const double[2]){0, 0}, n);
+        const quad here = height_along_way(n) / quad_length_of(n, DIM);
+        for (int i = 0; i < TURNS_EACH; i++) {
+            double t[ACROSS];
+            draw_turn_across(pow(10, any_between(-8, -3)), t);
+            turned_by(&least, t, n);
+            assert_true(height_along_way(n) / quad_length_of(n, DIM) - here > -(quad)(256 * UNIT));
+        }
+        vertex p;
+        assert_true(ask(&q.d, mul(least.n, -1), &p));
+        share_out(&of_both, &least, &p);
+        p.w = corner_of(&q.d, p.x, p.y);
+        found++;
+        exact += length(sub(p.w, mul(least.n, dot(p.w, least.n)))) < 1e-10;
+    }
+    printf("the least nearby: found %ld of %d, %ld right above the origin\n", found, PAIRS, exact);
+    assert_true(found > PAIRS * 9 / 10 && exact > found * 98 / 100);
+}
+
+/* What curvature says of heights up to so far from there, an error as large as is said taken off. */
+static quad height_by_curvature(const double t[ACROSS], double far)
+{
+    quad h = height_along_way((const quad[3]){(quad)least.n.c[0], (quad)least.n.c[1], (quad)least.n.c[DIM - 1]});
+    quad square = 0;
+    h -= (quad)least.height_off;
+    for (int i = 0; i < ACROSS; i++) {
+        square += (quad)t[i] * (quad)t[i];
+        h += (quad)least.slope[i] * (quad)t[i];
+        for (int j = 0; j <= i; j++) {
+            const quad both = (quad)t[i] * (quad)t[j] * (i == j ? 1 : 2) / 2;
+            h += (quad)least.bow.c[i][j] * both / (quad)(1 + least.sway * far) +
+                 (quad)least.kink.c[i][j] * both / (quad)far;
+        }
+    }
+    return h - (quad)least.slope_off * quad_sqrt(square) - (quad)(least.bow_off + least.kink_off / far) * square;
+}
+
+static void it_is_as_high_as_curvature_says(void **state)
+{
+    long told = 0, slants = 0;
+    quad nearest = 1;
+    (void)state;
+    state_of_draws = 2;
+    for (int k = 0; k < PAIRS; k++) {
+        draw_any_pair(k, 2);
+        if (!find_dip(k % 2)) {
+            continue;
+        }
+        for (int i = 0; i < TURNS_EACH; i++) {
+            double t[ACROSS];
+            const double far = pow(10, any_between(-3, 0));
+            quad n[DIM], above;
+            draw_turn_across(far, t);
+            turned_by(&least, t, n);
+            above = height_along_way(n) - height_by_curvature(t, far);
+            assert_true(above >= 0);
+            nearest = above / (quad)(far * far) < nearest ? above / (quad)(far * far) : nearest;
+        }
+        told++;
+        slants += least.slants != 0;
+    }
+    printf("as curvature says: %ld, of which %ld on a cone's edge; nearest %.2g\n", told, slants, (double)nearest);
+    assert_true(told > PAIRS * 8 / 10 && (DIM == 2 || slants > 20) && nearest < 1e-6);
+}
+
+/* The gap of round bodies is found by one corner more than the first, as a rule. */
+static void a_gap_needs_no_walk(void **state)
+{
+    long apart = 0, at_once = 0;
+    (void)state;
+    state_of_draws = 3;
+    for (int k = 0; k < 4 * PAIRS; k++) {
+        result r = {0};
+        draw_any_pair(k, 4);
+        assert_int_equal(pub(distance)(&shapes[0], &shapes[1], NULL, &r), GJK_OK);
+        if (!(r.lower > 0) || (shapes[0].support == pub(support_ball) && shapes[1].support == pub(support_ball))) {
+            continue;
+        }
+        apart++;
+        at_once += r.steps == 2 && r.supports == 4;
+    }
+    printf("gaps: %ld of %ld at once\n", at_once, apart);
+    assert_true(apart > PAIRS && at_once > apart * 99 / 100);
+}
+
+#if DIM == 3
+/* A dip above 0 is no way out of bodies that are apart, nor is any other of these: how far they are apart is told all
+ * the same. */
+static void no_way_out(void **state)
+{
+    long reached = 0, close_by = 0;
+    (void)state;
+    state_of_draws = 5;
+    for (int k = 0; k < PAIRS; k++) {
+        result r = {0}, s = {0};
+        draw_any_pair(k, 3);
+        for (int i = 0; i < 2; i++) {
+            numbers[i][k % 3] /= 16; /* flat ones and long ones */
+        }
+        pub(distance)(&shapes[0], &shapes[1], NULL, &r);
+        for (int i = 0; i < 8 && !(r.value > 0 && r.value < 2e-3); i++) { /* brought to a gap of 1e-3 */
+            pub(penetration)(&shapes[0], &shapes[1], NULL, &s);
+            for (int j = 0; j < DIM; j++) {
+                poses[1].p[j] -= (s.value - 1e-3) * s.normal[j];
+            }
+            pub(distance)(&shapes[0], &shapes[1], NULL, &r);
+        }
+        if (!(r.value > 0 && r.value < 2e-3)) {
+            continue;
+        }
+        reached++;
+        close_by += find_dip(0) && least.height > 0;
+        assert_int_equal(pub(penetration)(&shapes[0], &shapes[1], NULL, &s), GJK_OK);
+        assert_true(s.lower > 0 && s.lower <= r.upper && r.lower <= s.upper);
+    }
+    printf("apart: %ld, of which %ld beside a dip above 0\n", reached, close_by);
+    assert_true(close_by > 0);
+}
+#endif
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_is_the_least_nearby),
+        cmocka_unit_test(it_is_as_high_as_curvature_says),
+        cmocka_unit_test(a_gap_needs_no_walk),
+#if DIM == 3
+        cmocka_unit_test(no_way_out),
+#endif
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
