@@ -23,7 +23,7 @@ static const uint64_t known[3] = {0x9632044ff8a8afa9, 0x35115401dd6bc5e2, 0x908f
 static const uint64_t known[3] = {0x2930ebc2168c19f8, 0x8f3574bcfb72e05c, 0x0676d4c51ad96022};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x0d3e7579b5c8cd22, 0x854a3c5d34e76403, 0x261b2c4e56a46da6};
+static const uint64_t known[3] = {0x7965a852235a022f, 0x854a3c5d34e76403, 0x26c88af64110c3ab};
 #endif
 #if VARIANT_FLOAT
 typedef float real;
