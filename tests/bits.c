@@ -14,10 +14,10 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x560d91128fbb92a5, 0xe1904580b878729b, 0xccbb35b30ff815d2};
+static const uint64_t known[3] = {0x560d91128fbb92a5, 0x54e497f7707b7082, 0xccbb35b30ff815d2};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x9632044ff8a8afa9, 0x35115401dd6bc5e2, 0x908f643b3f270cf1};
+static const uint64_t known[3] = {0x9632044ff8a8afa9, 0xaed757c440b4f911, 0x908f643b3f270cf1};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x2930ebc2168c19f8, 0x8f3574bcfb72e05c, 0x0676d4c51ad96022};

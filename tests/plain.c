@@ -584,6 +584,67 @@ static void draw_turn(real m[DIM * DIM])
     }
 }
 
+#if DIM == 3
+#define MOST_CORNERS 100
+
+static real hull_corners[2][MOST_CORNERS * (DIM + 1)];
+static points hulls[2];
+
+/* Two hulls of some corners, of one size, so far from each other, each among its own origin or beside it. */
+static void draw_hulls(real size, real far, int stride)
+{
+    for (int k = 0; k < 2; k++) {
+        const int count = 5 + (int)any_between(0, any_between(0, 2) < 1 ? 20 : MOST_CORNERS - 5);
+        const real aside = any_real(0, 1) < (real)0.2 ? size : 0;
+        for (int i = 0; i < count * stride; i++) hull_corners[k][i] = any_real(-1, 1) * size + aside;
+        hulls[k] = (points){hull_corners[k], (size_t)count, (uint32_t)(stride * (int)sizeof(real)), 0, 0};
+        hulls[k].reach = pub(points_reach)(&hulls[k]);
+        draw_turn(poses[k].m);
+        for (int i = 0; i < DIM; i++) poses[k].p[i] = any_real(-far, far) * size;
+        shapes[k] = (shape){pub(support_points), &hulls[k], any_between(0, 8) < 7 ? &poses[k] : NULL, 0};
+    }
+}
+
+/* How far the point lies from the body, at least. */
+static real distance_of(const real *point, const shape *s)
+{
+    pose at = {.m = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    const shape alone = {pub(support_origin), NULL, &at, 0};
+    result r;
+    for (int i = 0; i < DIM; i++) at.p[i] = point[i];
+    assert_true(pub(distance)(&alone, s, NULL, &r) >= 0);
+    return r.lower;
+}
+
+/* Two hulls are told at the door what they are told behind it, to the bit; and that is so. */
+static void hulls_are_told_at_the_door(void **state)
+{
+    const options steps = {.size = sizeof steps, .max_steps = 255};
+    long apart = 0, deep = 0, by_three = 0;
+    (void)state;
+    state_of_draws = 17;
+    for (int k = 0; k < PAIRS / 4; k++) {
+        result told, behind, p;
+        const real size = (real)pow(10, any_between(-3, 3));
+        draw_hulls(size, k % 2 ? (real)0.5 : (real)1.5, k % 5 ? DIM : DIM + 1);
+        memset(&told, 0, sizeof told);
+        memset(&behind, 0, sizeof behind);
+        assert_true(pub(intersect)(&shapes[0], &shapes[1], NULL, &told) >= 0);
+        assert_true(pub(intersect)(&shapes[0], &shapes[1], &steps, &behind) >= 0);
+        assert_memory_equal(&told, &behind, sizeof told);
+        assert_true(pub(penetration)(&shapes[0], &shapes[1], NULL, &p) >= 0);
+        assert_true(told.lower <= p.upper && p.lower <= told.upper);
+        apart += told.lower > 0;
+        if (!(told.upper < 0)) continue;
+        deep++;
+        by_three += told.steps == 3;
+        for (int i = 0; i < 2; i++) assert_true(distance_of(told.point_a, &shapes[i]) <= 64 * UNIT * size);
+        assert_memory_equal(told.point_a, told.point_b, sizeof told.point_a);
+    }
+    assert_true(apart > 500 && deep > 3000 && 2 * by_three > deep);
+}
+#endif
+
 /* Along the axes of two boxes that are turned, and lie near each other. */
 static void axes_need_no_frame(void **state)
 {
@@ -898,6 +959,9 @@ int main(void)
         cmocka_unit_test(done_is_not_rough),
         cmocka_unit_test(headings_save_calls),
         cmocka_unit_test(a_glance_needs_no_frame),
+#if DIM == 3
+        cmocka_unit_test(hulls_are_told_at_the_door),
+#endif
         cmocka_unit_test(axes_need_no_frame),
         cmocka_unit_test(skew_axes_need_no_frame),
         cmocka_unit_test(a_gap_needs_no_walk),

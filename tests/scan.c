@@ -42,7 +42,8 @@ static void draw_points(int kind, int count, int step)
 
 static list any_list(int kind)
 {
-    int count = RUN + below_any((below_any(2) ? MOST : (int)MANY) - RUN), step = DIM + below_any(WIDEST - DIM + 1);
+    int count = RUN + below_any((below_any(2) ? MOST : (int)MANY) - RUN),
+        step = DIM + below_any(WIDEST - DIM + 1) * below_any(2);
     draw_points(kind, count, step);
     real reach = kind == 1 ? 4 : kind == 2 ? 2000 : 2;
     return (list){v, (size_t)count, (size_t)step, reach};
@@ -77,10 +78,19 @@ static size_t first_of_highest(const list *l, vec d)
 /* In runs, as many as there are; what is told of almost equals, and what in haste. */
 static void check_runs(const list *l, vec d, size_t best, size_t first)
 {
-    assert_true(farthest_in_runs(l, d, CAREFUL) == best);
-    assert_true(farthest_in_runs(l, d, WARY) == best);
-    assert_true(farthest_in_runs(l, d, HASTY) == first);
+    if (l->count >= EIGHT) {
+        assert_true(farthest_in_runs(l, d, CAREFUL) == best);
+        assert_true(farthest_in_runs(l, d, WARY) == best);
+        assert_true(farthest_in_runs(l, d, HASTY) == first);
+        assert_true(farthest_in_runs(l, d, FIRST_SIGHT) == first);
+    }
     if (l->count >= MANY) return;
+    if (l->count >= EIGHT) {
+        assert_true(farthest_of_some(l, d, CAREFUL) == best);
+        assert_true(farthest_of_some(l, d, WARY) == best);
+        assert_true(farthest_of_some(l, d, HASTY) == first);
+        assert_true(farthest_of_some(l, d, FIRST_SIGHT) == first);
+    }
     assert_true(farthest_in_few_runs(l, d, CAREFUL) == best);
     assert_true(farthest_in_few_runs(l, d, WARY) == best);
     assert_true(farthest_in_few_runs(l, d, HASTY) == first);
@@ -126,8 +136,12 @@ static void no_numbers(void **state)
         if (d.c[axis_of] == 0) d.c[axis_of] = 1;
         v[(size_t)at * l.step + (size_t)axis_of] = nones[i % 3];
         assert_true(farthest_of_few(&l, d, WARY) == l.count);
-        assert_true(farthest_in_runs(&l, d, WARY) == l.count);
+        if (l.count >= EIGHT) assert_true(farthest_in_runs(&l, d, WARY) == l.count);
         if (l.count >= MANY) continue;
+        if (l.count >= EIGHT) {
+            assert_true(farthest_of_some(&l, d, FIRST_SIGHT) == l.count);
+            assert_true(farthest_of_some(&l, d, WARY) == l.count);
+        }
         assert_true(farthest_in_few_runs(&l, d, FIRST_SIGHT) == l.count);
         assert_true(farthest_in_few_runs(&l, d, WARY) == l.count);
     }

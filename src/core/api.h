@@ -10,6 +10,7 @@
 #include "fine.h"
 #include "gap.h"
 #include "glance.h"
+#include "hulls.h"
 #include "intersect.h"
 #include "plain.h"
 #include "planar.h"
@@ -693,7 +694,8 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
     const options *o = check_options(&own, given);
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    if (list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d) && !lender_of(a, b, o, 1))
+    if (q->glanced != IN_VAIN && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d) &&
+        !lender_of(a, b, o, 1))
         q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, out) : glance(q, a, b, out);
 #if DIM == 3
     if (q->glanced == IN_VAIN) q->glanced = stride_and_remember(q, a, b, o, out);
@@ -733,7 +735,10 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
 GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
 {
     search q;
-    if (tell_plainly(&q, a, b, given, 1, 0, out)) return out->status = GJK_DECIDED;
+    q.dug = -1;
+    q.glanced = are_plain_hulls(a, b, given, out) ? glance_at_hulls(&q, a, b, out) : UNTRIED;
+    if (q.glanced == TELLING) return out->status = GJK_DECIDED;
+    if (q.glanced == UNTRIED && tell_plainly(&q, a, b, given, 1, 0, out)) return out->status = GJK_DECIDED;
     return answer_intersect(&q, a, b, given, out);
 }
 

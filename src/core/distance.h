@@ -94,6 +94,7 @@ typedef struct search {
     trail trail;
 #endif
     int turned; /* not walked, but turned to a dip of the heights that seems to be a way out; below 0: never again */
+    int dug;    /* so many corners were looked at from there in vain (stride.h); -1: that is still to be tried */
     int stood;  /* the corner in the spare slot was sought in haste, and lies no lower along v */
     int kept;   /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
 } search;

@@ -26,6 +26,14 @@ HOT evidence corner_shown(const difference *d, vec v, const vertex *p)
     return e;
 }
 
+HOT vec squared_columns(const real *m, real level)
+{
+    vec uu;
+    EACH(uu.c[i] = (m[i] * level) * (m[i] * level);
+         for (int j = 1; j < DIM; j++) uu.c[i] += (m[DIM * j + i] * level) * (m[DIM * j + i] * level));
+    return uu;
+}
+
 /* The squared lengths of the body's axes, its map times that power of two. */
 static inline vec squared_axes(const body *k, real level)
 {
@@ -34,19 +42,24 @@ static inline vec squared_axes(const body *k, real level)
         EACH(uu.c[i] = 1);
         return uu;
     }
-    const real *m = k->m;
-    EACH(uu.c[i] = (m[i] * level) * (m[i] * level);
-         for (int j = 1; j < DIM; j++) uu.c[i] += (m[DIM * j + i] * level) * (m[DIM * j + i] * level));
-    return uu;
+    return squared_columns(k->m, level);
 }
 
 /* Of the body's map, the sum of squares, whose root bounds all norms of it, with its signs or without; and the square
  * of the set's reach, its points times that grain. */
-static inline real square_of_map(const body *k, vec uu)
+HOT real sum_of_all(vec x)
 {
-    real sum = uu.c[0];
-    REST(sum += uu.c[i]);
-    return k->posed ? sum : 1;
+    real sum = x.c[0];
+    REST(sum += x.c[i]);
+    return sum;
+}
+
+static inline real square_of_map(const body *k, vec uu) { return k->posed ? sum_of_all(uu) : 1; }
+
+HOT real square_of_list(const list *l, real grain)
+{
+    const real reach = l->reach * grain * (1 + 8 * UNIT);
+    return reach * reach;
 }
 
 static inline real square_of_reach(const body *k, real grain)
@@ -55,8 +68,7 @@ static inline real square_of_reach(const body *k, real grain)
         vec half = mul(load(((const box *)k->data)->half), grain);
         return dot(half, half);
     }
-    real reach = k->list.reach * grain * (1 + 8 * UNIT);
-    return reach * reach;
+    return square_of_list(&k->list, grain);
 }
 
 /* The doubt, and what raise and spell charge besides, of bodies that reach A and B from their positions, c apart, is no
@@ -124,6 +136,12 @@ HOT void stay_outside(difference *d, const shape *a, const shape *b)
     d->wild = 0;
 }
 
+/* The squares of w and of its height are up to three times the whole. */
+HOT int are_squares_plain(real map_a, real map_b, real set_a, real set_b, real square)
+{
+    return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN && square < REAL_MAX / 4;
+}
+
 /* The doubt of bodies c apart, by its square, and the squares of their axes. 0: squares underflow, or overflow. */
 HOT int doubt_by_squares(difference *d, real cc, vec uu[2])
 {
@@ -133,8 +151,7 @@ HOT int doubt_by_squares(difference *d, real cc, vec uu[2])
     const real set_a = square_of_reach(&d->a, 1), set_b = square_of_reach(&d->b, 1);
     const real square = map_a * set_a + map_b * set_b + cc;
     d->doubt = GLANCE_DOUBT * root(square);
-    return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN &&
-           square < REAL_MAX / 4; /* the squares of w and of its height are up to three times that */
+    return are_squares_plain(map_a, map_b, set_a, set_b, square);
 }
 
 /* The square of the way between the bodies does not underflow, and their radii are plain. */

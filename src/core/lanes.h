@@ -28,8 +28,16 @@ static inline lanes largest_in_all(lanes x) { return _mm_max_pd(x, _mm_shuffle_p
 static inline real first_lane(lanes x) { return _mm_cvtsd_f64(x); }
 static inline lanes least_in_all(lanes x) { return _mm_min_pd(x, _mm_shuffle_pd(x, x, 1)); }
 
+/* A bit for each of eight numbers: whether it is as large as y. */
+HOT unsigned eight_as_large(const lanes x[4], lanes y)
+{
+    const __m128 a = _mm_castpd_ps(_mm_cmpge_pd(x[0], y)), b = _mm_castpd_ps(_mm_cmpge_pd(x[1], y));
+    const __m128 c = _mm_castpd_ps(_mm_cmpge_pd(x[2], y)), d = _mm_castpd_ps(_mm_cmpge_pd(x[3], y));
+    return (unsigned)(_mm_movemask_ps(_mm_shuffle_ps(a, b, 0x88)) | _mm_movemask_ps(_mm_shuffle_ps(c, d, 0x88)) << 4);
+}
+
 /* A number of each point, step by step. */
-static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
+HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
 {
     EACH(c[i] = _mm_loadh_pd(_mm_load_sd(x + i), x + step + i));
 }
@@ -85,6 +93,11 @@ static inline lanes least_in_all(lanes x)
     return _mm_min_ps(x, _mm_shuffle_ps(x, x, 0xb1));
 }
 
+HOT unsigned eight_as_large(const lanes x[2], lanes y)
+{
+    return (unsigned)(any_as_large(x[0], y) | any_as_large(x[1], y) << 4);
+}
+
 /* x and y of two points, step apart. */
 static inline lanes load_two(const real *x, size_t step)
 {
@@ -93,7 +106,7 @@ static inline lanes load_two(const real *x, size_t step)
 }
 
 /* A number of each point, step by step. */
-static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
+HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
 {
     lanes low = load_two(x, step), high = load_two(x + 2 * step, step);
     c[0] = _mm_shuffle_ps(low, high, 0x88);
@@ -147,7 +160,13 @@ static inline lanes join_lanes(const real x[LANES]) { return x[0]; }
 static inline lanes largest_in_all(lanes x) { return x; }
 static inline real first_lane(lanes x) { return x; }
 static inline lanes least_in_all(lanes x) { return x; }
-static inline void load_lanes(const real *x, size_t step, lanes c[DIM])
+HOT unsigned eight_as_large(const lanes x[8], lanes y)
+{
+    unsigned r = 0;
+    for (int k = 0; k < 8; k++) r |= (unsigned)(x[k] >= y) << k;
+    return r;
+}
+HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
 {
     (void)step;
     EACH(c[i] = x[i]);

@@ -31,7 +31,7 @@ typedef struct vec {
         REST(statement);                                                                                               \
     } while (0)
 
-static inline vec load(const real *c)
+HOT vec load(const real *c)
 {
     vec r;
     EACH(r.c[i] = c[i]);
@@ -55,25 +55,25 @@ static inline vec nowhere(void)
     return r;
 }
 
-static inline vec add(vec a, vec b)
+HOT vec add(vec a, vec b)
 {
     EACH(a.c[i] += b.c[i]);
     return a;
 }
 
-static inline vec sub(vec a, vec b)
+HOT vec sub(vec a, vec b)
 {
     EACH(a.c[i] -= b.c[i]);
     return a;
 }
 
-static inline vec mul(vec a, real k)
+HOT vec mul(vec a, real k)
 {
     EACH(a.c[i] *= k);
     return a;
 }
 
-static inline real dot(vec a, vec b)
+HOT real dot(vec a, vec b)
 {
     real r = a.c[0] * b.c[0];
     REST(r += a.c[i] * b.c[i]);
@@ -91,7 +91,7 @@ static inline real dot_size(vec a, vec b)
 static inline real length(vec a) { return root(dot(a, a)); }
 
 /* Sum of sizes, at least the length, and safe from under- and overflow where the length is not. */
-static inline real spread(vec a)
+HOT real spread(vec a)
 {
     real r = size(a.c[0]);
     REST(r += size(a.c[i]));
@@ -99,7 +99,7 @@ static inline real spread(vec a)
 }
 
 /* Largest size; a NaN is passed over. */
-static inline real peak(vec a)
+HOT real peak(vec a)
 {
     real r = size(a.c[0]);
     REST(r = larger(size(a.c[i]), r));

@@ -26,7 +26,7 @@ typedef struct ways {
     lanes c[DIM];
 } ways;
 
-static inline ways ways_of(vec d)
+HOT ways ways_of(vec d)
 {
     ways r;
     EACH(r.c[i] = in_all(d.c[i]));
@@ -34,7 +34,7 @@ static inline ways ways_of(vec d)
 }
 
 /* How high LANES points are: what dot says of each. */
-static inline lanes heights(const real *x, size_t step, const ways *d)
+HOT lanes heights(const real *x, size_t step, const ways *d)
 {
     lanes c[DIM], r;
     load_lanes(x, step, c);
@@ -172,7 +172,7 @@ HOT unsigned as_high_as(const real height[MANY], size_t n, lanes least)
     }
 }
 
-/* The farthest of less than MANY points, but a RUN of them at least. Which are high is read off bits, one for each:
+/* The farthest of so few points, but a RUN of them at least. Which are high is read off bits, one for each:
  * nothing is branched on but whether there is more than one. */
 HOT size_t farthest_in_few_runs(const list *l, vec d, enum care care)
 {
@@ -201,7 +201,114 @@ HOT size_t farthest_in_few_runs(const list *l, vec d, enum care care)
     return at ? first_bit(at) : 0;
 }
 
-/* A summit in each lane, of runs. */
+/* From EIGHT on points are looked at eight by eight, the last of the last ones, some of them once more. */
+#define EIGHT 8
+
+typedef struct eight {
+    lanes high[EIGHT / LANES];
+} eight;
+
+/* A statement for each part i of eight. */
+#if LANES == 4
+#define EACH_OF_EIGHT(statement)                                                                                       \
+    do {                                                                                                               \
+        PART(0, statement);                                                                                            \
+        PART(1, statement);                                                                                            \
+    } while (0)
+#elif LANES == 2
+#define EACH_OF_EIGHT(statement)                                                                                       \
+    do {                                                                                                               \
+        PART(0, statement);                                                                                            \
+        PART(1, statement);                                                                                            \
+        PART(2, statement);                                                                                            \
+        PART(3, statement);                                                                                            \
+    } while (0)
+#else
+#define EACH_OF_EIGHT(statement)                                                                                       \
+    for (size_t i = 0; i < EIGHT; i++) statement
+#endif
+
+HOT eight look_at_eight(const real *x, size_t step, const ways *d)
+{
+    eight r;
+    EACH_OF_EIGHT(r.high[i] = heights(x + i * LANES * step, step, d));
+    return r;
+}
+
+/* In each lane the highest. */
+HOT lanes highest_of_eight(const eight *e)
+{
+    lanes most = e->high[0];
+    EACH_OF_EIGHT(if (i > 0) most = larger_ones(e->high[i], most));
+    return most;
+}
+
+HOT lanes add_eight(const eight *e, lanes sum)
+{
+    EACH_OF_EIGHT(sum = sums(sum, e->high[i]));
+    return sum;
+}
+
+/* Each of these sums is finite only if all that is in it is. */
+HOT int are_finite(lanes sum) { return holds_in_all(no_larger(products(sum, in_all(0)), in_all(0))); }
+
+/* The first of the highest of n, of which these bits tell, or in care whichever is. */
+HOT size_t choose_highest(const list *l, vec d, unsigned at, unsigned near, real almost, enum care care)
+{
+    if (tells_equals(care) && (near & (near - 1))) return settle_tie(l, d, first_bit(at), almost);
+    return first_bit(at | 1u << (l->count - 1));
+}
+
+HOT size_t farthest_of_eight(const list *l, size_t step, vec d, enum care care)
+{
+    const ways way = ways_of(d);
+    const eight e = look_at_eight(l->v, step, &way);
+    if (is_of_strangers(care) && !are_finite(add_eight(&e, in_all(0))) && !are_numbers(l, d)) return EIGHT;
+    const lanes most = largest_in_all(highest_of_eight(&e));
+    const real almost = tells_equals(care) ? first_lane(most) - margin_of(l, d) : 0;
+    const unsigned near = tells_equals(care) ? eight_as_large(e.high, in_all(almost)) : 0;
+    return choose_highest(l, d, eight_as_large(e.high, most), near, almost, care);
+}
+
+static inline size_t later_eight(size_t i, size_t last) { return i < last ? i : last; }
+
+HOT size_t farthest_in_eights(const list *l, size_t step, vec d, enum care care)
+{
+    const size_t n = l->count, last = n - EIGHT;
+    if (last == 0) return farthest_of_eight(l, step, d, care);
+    const ways way = ways_of(d);
+    eight e[MANY / EIGHT];
+    lanes most = in_all(-REAL_MAX), total = in_all(0);
+    for (size_t i = 0; i < n; i += EIGHT) {
+        eight *next = &e[i / EIGHT];
+        *next = look_at_eight(l->v + later_eight(i, last) * step, step, &way);
+        most = larger_ones(highest_of_eight(next), most);
+        if (is_of_strangers(care)) total = add_eight(next, total);
+    }
+    if (is_of_strangers(care) && !are_finite(total) && !are_numbers(l, d)) return n;
+    most = largest_in_all(most);
+    const real almost = tells_equals(care) ? first_lane(most) - margin_of(l, d) : 0;
+    unsigned at = 0, near = 0;
+    for (size_t i = 0; i < n; i += EIGHT) {
+        at |= eight_as_large(e[i / EIGHT].high, most) << later_eight(i, last);
+        if (tells_equals(care)) near |= eight_as_large(e[i / EIGHT].high, in_all(almost)) << later_eight(i, last);
+    }
+    return choose_highest(l, d, at, near, almost, care);
+}
+
+static APART size_t farthest_in_eights_apart(const list *l, vec d, enum care care)
+{
+    return farthest_in_eights(l, l->step, d, care);
+}
+
+/* Of corners one beside another, or not. */
+HOT size_t farthest_of_some(const list *l, vec d, enum care care)
+{
+    return l->step == DIM ? farthest_in_eights(l, DIM, d, care) : farthest_in_eights_apart(l, d, care);
+}
+
+/* Of many, in each lane the highest so far, of the highest of each eight, and which eight that is of; and the next one.
+ */
 typedef struct summits {
     lanes highest, second;
     indices at;
@@ -215,70 +322,74 @@ static inline summits see_run(summits s, lanes height, indices at)
     return s;
 }
 
-/* The point that is the highest of all lanes. */
-static inline summit summit_of(const summits *all, const list *l, vec d)
+/* The first eight that has one so high. */
+static inline size_t eight_of(const summits *all, lanes most)
 {
-    real highest[LANES], second[LANES];
-    uint32_t at[LANES];
-    part_lanes(all->highest, highest);
-    part_lanes(all->second, second);
+    const unsigned here = (unsigned)any_as_large(all->highest, most);
+    uint32_t at[LANES], first = UINT32_MAX;
     part_indices(all->at, at);
-    summit lane = {highest[0], second[0], 0};
-    for (size_t k = 1; k < LANES; k++) {
-        lane = see(lane, highest[k], k);
-        lane.second = larger(second[k], lane.second);
+    for (int k = 0; k < LANES; k++) {
+        const uint32_t next = at[k] | ((here >> k & 1) - 1);
+        first = next < first ? next : first;
     }
-    size_t i = (size_t)at[lane.at] * RUN + lane.at;
-    summit s = {dot(nth_of(l, i), d), lane.second, i};
-    for (size_t k = LANES; k < RUN; k += LANES) s = see(s, dot(nth_of(l, i + k), d), i + k);
-    return s;
+    return here ? first : 0;
 }
 
-/* Lanes do not tell which of equals is the first. One of the points has that height. */
-static inline size_t first_of_height(const list *l, vec d, real height)
+static inline int is_more_than_one(unsigned set) { return (set & (set - 1)) != 0; }
+
+/* Whether another is almost as high as the highest, which is one of these eight: it may be one looked at twice. */
+static inline int has_rival(const summits *all, const eight *e, lanes almost)
 {
-    size_t i = 0;
-    while (i + 1 < l->count && dot(nth_of(l, i), d) != height) i++;
-    return i;
+    return any_as_large(all->second, almost) || is_more_than_one((unsigned)any_as_large(all->highest, almost)) ||
+           is_more_than_one(eight_as_large(e->high, almost));
 }
 
-/* As many runs as indices count; points beyond these are looked at one by one. */
-#define MOST_RUNS 0x7fffffffu
+/* As many as indices count. */
+#define MOST_POINTS (8 * (size_t)0x7fffffff)
 
-HOT size_t farthest_in_runs(const list *l, vec d, enum care care)
+HOT size_t farthest_in_runs_of(const list *l, size_t step, vec d, enum care care)
 {
-    const size_t step = l->step, runs = l->count / RUN < MOST_RUNS ? l->count / RUN : MOST_RUNS;
-    const real *x = l->v;
+    const size_t n = l->count, last = n - EIGHT;
     const ways way = ways_of(d);
     summits all = {in_all(-REAL_MAX), in_all(-REAL_MAX), index_in_all(0)};
     lanes total = in_all(0);
     indices at = index_in_all(0);
-    for (size_t k = 0; k < runs; k++, x += RUN * step, at = next_indices(at))
-        all = see_run(all, highest_in_run(x, step, &way, &total), at);
-    summit s = summit_of(&all, l, d);
-    real sum = sum_of_lanes(total);
-    for (size_t i = runs * RUN; i < l->count; i++, x += step) {
-        real height = dot(load(x), d);
-        sum += height;
-        s = see(s, height, i);
+    for (size_t i = 0; i < n; i += EIGHT, at = next_indices(at)) {
+        const eight e = look_at_eight(l->v + later_eight(i, last) * step, step, &way);
+        if (is_of_strangers(care)) total = add_eight(&e, total);
+        all = see_run(all, highest_of_eight(&e), at);
     }
-    if (is_of_strangers(care) && has_none(l, d, sum)) return l->count;
-    if (s.second == s.highest) s.at = first_of_height(l, d, s.highest);
-    return care == HASTY ? s.at : settle_summit(l, d, s);
+    if (is_of_strangers(care) && !are_finite(total) && !are_numbers(l, d)) return n;
+    const lanes most = largest_in_all(all.highest);
+    const size_t from = later_eight(eight_of(&all, most) * EIGHT, last);
+    const eight e = look_at_eight(l->v + from * step, step, &way);
+    const size_t best = from + first_bit(eight_as_large(e.high, most) | 1u << (EIGHT - 1));
+    if (!tells_equals(care)) return best;
+    const real almost = first_lane(most) - margin_of(l, d);
+    return has_rival(&all, &e, in_all(almost)) ? settle_tie(l, d, best, almost) : best;
+}
+
+HOT size_t farthest_in_runs(const list *l, vec d, enum care care)
+{
+    if (l->count > MOST_POINTS) return farthest_of_few(l, d, care);
+    return l->step == DIM ? farthest_in_runs_of(l, DIM, d, care) : farthest_in_runs_of(l, l->step, d, care);
 }
 
 static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, WARY); }
+static APART size_t farthest_of_many_at_sight(const list *l, vec d) { return farthest_in_runs(l, d, FIRST_SIGHT); }
 static APART size_t farthest_of_many_numbers(const list *l, vec d) { return farthest_in_runs(l, d, CAREFUL); }
 static APART size_t farthest_of_many_in_haste(const list *l, vec d) { return farthest_in_runs(l, d, HASTY); }
 
-/* Farthest of the points, the first among equals; of strangers their count if one is not finite. Of many at first
- * sight, and of so few as a segment or a triangle has, almost equals are told apart in any case. */
+/* Farthest of the points, the first among equals; of strangers their count if one is not finite. Of so few as a segment
+ * or a triangle has almost equals are told apart in any case. */
 HOT size_t farthest_among(const list *l, vec d, enum care care)
 {
+    if (l->count < MANY && l->count >= EIGHT) return farthest_of_some(l, d, care);
     if (l->count < MANY && l->count >= RUN) return farthest_in_few_runs(l, d, care);
     if (l->count < MANY) return farthest_of_few(l, d, care);
     if (care == HASTY) return farthest_of_many_in_haste(l, d);
-    return is_of_strangers(care) ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
+    if (care == FIRST_SIGHT) return farthest_of_many_at_sight(l, d);
+    return care == WARY ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
 }
 
 /* The same, where it is one call among many. */

@@ -37,7 +37,7 @@ static inline void stand_on_first(search *q)
     q->borrowed = 0;
     q->d.slack = 0;
     q->d.loose = 0;
-    q->steps = 1;
+    q->steps = 1 + (q->dug > 0 ? q->dug : 0);
 }
 
 /* A frame by the doubt of a glance at bodies in the caller's lengths: the root that it is made of is of size 1 to 2. */
@@ -81,36 +81,57 @@ static APART int point_toward(const body *k, vec dir, vec *x, vec *at)
     return 1;
 }
 
-/* The corner least along the way, in haste; where A's point of it is placed; and what it shows. 0: it is none. */
-static inline int seek_corner(search *q, evidence *e, vec at[DIM + 1])
+/* The same of a hull at the door: of eight corners or more, in the caller's lengths. */
+HOT int point_of_hull(const body *k, vec dir, enum care care, vec *x, vec *at)
 {
-    difference *d = &q->d;
-    const int slot = q->s.at[q->s.n];
-    vertex *p = &q->s.slot[slot];
-    if (d->wild) {
-        if (!ask_with(d, q->way, HASTY, p)) return 0;
+    const list *l = &k->list;
+    dir = plain_direction(k, dir);
+    const size_t best = l->count < MANY ? farthest_of_some(l, dir, care) : farthest_among(l, dir, care);
+    if (best == l->count) return 0;
+    *x = nth_of(l, best);
+    *at = mapped(k, *x);
+    return fits(k, *x);
+}
+
+/* The corner least along the way, in haste, and what it shows; hulls: both are, at the door. 0: it is none. */
+HOT int find_corner(difference *d, int hulls, vec way, vertex *p, evidence *e)
+{
+    const vec back = mul(way, -1);
+    if (!hulls && d->wild) {
+        if (!ask_with(d, way, HASTY, p)) return 0;
         e->a = place(&d->a, p->x);
         e->b = place(&d->b, p->y);
     } else {
         d->calls += 2;
-        if (!point_toward(&d->a, mul(q->way, -1), &p->x, &e->a) || !point_toward(&d->b, q->way, &p->y, &e->b)) return 0;
+        if (hulls ? !point_of_hull(&d->a, back, HASTY, &p->x, &e->a) || !point_of_hull(&d->b, way, HASTY, &p->y, &e->b)
+                  : !point_toward(&d->a, back, &p->x, &e->a) || !point_toward(&d->b, way, &p->y, &e->b))
+            return 0;
     }
-    at[slot] = e->a;
     p->w = e->w = sub(e->a, add(e->b, d->c));
-    e->height = dot(q->way, e->w);
+    e->height = dot(way, e->w);
+    return 1;
+}
+
+/* The same along the search's way; where A's point of it is placed is kept, too. */
+static inline int seek_corner(search *q, evidence *e, vec at[DIM + 1])
+{
+    const int slot = q->s.at[q->s.n];
+    if (!find_corner(&q->d, 0, q->way, &q->s.slot[slot], e)) return 0;
+    at[slot] = e->a;
     q->pending = 1;
     return 1;
 }
 
-/* It proves the bodies to be apart. */
-static inline int tell_stride(search *q, evidence *e, const shape *a, const shape *b, result *r)
+/* The corner p, sought along that way, proves the bodies to be apart. */
+static inline int tell_corner(search *q, evidence *e, vec way, const vertex *p, const shape *a, const shape *b,
+                              result *r)
 {
     if (!(e->height > 0)) return 0;
-    weigh_evidence(e, q->way, q->d.doubt);
+    weigh_evidence(e, way, q->d.doubt);
     if (!(e->lower > 0)) return 0;
     q->pending = 0; /* the next query starts better from the others */
-    if (q->d.wild) return spell_evidence(q, e, q->way, spare(&q->s), a, b, r);
-    spell_sharp(q, e, q->way, q->d.unscale, a, b, r);
+    if (q->d.wild) return spell_evidence(q, e, way, p, a, b, r);
+    spell_sharp(q, e, way, q->d.unscale, a, b, r);
     return 1;
 }
 
@@ -123,27 +144,52 @@ static inline void keep_evidence(search *q, const evidence *e)
     EACH(q->normal.c[i] = 0 - q->way.c[i] / l);
 }
 
-/* With the corner in the spare slot a triangle holds the origin; its weights, and how much room it has there, as
- * rough_room has it: of the heights' squares, and of corners no farther out than the doubt says. 0: none for certain.
- */
-static inline real room_with_last(const search *q, real weight[DIM + 1])
+/* A tetrahedron of points of A - B, and its faces, each across from one of them. */
+typedef struct tetra {
+    vec w[DIM + 1];
+    vec face[DIM + 1]; /* times turn: toward that one */
+    real turn;
+    real weight[DIM + 1]; /* with which it holds the origin; below 0: the origin lies beyond that face */
+} tetra;
+
+/* How much room the origin has in it, as rough_room has it: of the heights' squares, and of corners no farther out than
+ * that, or sqrt(3) times. 0: none for certain. */
+HOT real room_of(tetra *t, real far)
 {
-    const simplex *s = &q->s;
-    const vec p = point(s, 3), a = sub(point(s, 0), p), b = sub(point(s, 1), p), c = sub(point(s, 2), p);
+    const vec p = t->w[3], a = sub(t->w[0], p), b = sub(t->w[1], p), c = sub(t->w[2], p);
     const vec bc = cross(b, c), ca = cross(c, a), ab = cross(a, b), last = add(add(bc, ca), ab);
-    const real turn = signed_as(1, dot(a, bc)), far = q->d.doubt * (1 / GLANCE_DOUBT);
+    const real turn = signed_as(1, dot(a, bc));
     const real doubt = 667 * UNIT * (far * far * far); /* 128 UNIT (sqrt(3) far)^3: docs/bounds.md */
-    weight[0] = -dot(p, bc) * turn;
-    weight[1] = -dot(p, ca) * turn;
-    weight[2] = -dot(p, ab) * turn;
-    weight[3] = dot(point(s, 0), cross(point(s, 1), point(s, 2))) * turn;
-    const real u0 = weight[0] - doubt, u1 = weight[1] - doubt, u2 = weight[2] - doubt, u3 = weight[3] - doubt;
-    if (!(u0 > 0 && u1 > 0 && u2 > 0 && u3 > 0)) return 0;
+    const real w0 = -dot(p, bc) * turn, w1 = -dot(p, ca) * turn, w2 = -dot(p, ab) * turn;
+    const real w3 = dot(t->w[0], cross(t->w[1], t->w[2])) * turn;
+    t->turn = turn;
+    t->face[0] = bc;
+    t->face[1] = ca;
+    t->face[2] = ab;
+    t->face[3] = mul(last, -1);
+    t->weight[0] = w0;
+    t->weight[1] = w1;
+    t->weight[2] = w2;
+    t->weight[3] = w3;
+    const real u0 = w0 - doubt, u1 = w1 - doubt, u2 = w2 - doubt, u3 = w3 - doubt;
+    if (!((u0 > 0) & (u1 > 0) & (u2 > 0) & (u3 > 0))) return 0;
     real least = u0 * u0 / dot(bc, bc);
     least = smaller(u1 * u1 / dot(ca, ca), least);
     least = smaller(u2 * u2 / dot(ab, ab), least);
     least = smaller(u3 * u3 / dot(last, last), least);
     return root(least) * (1 - 8 * UNIT);
+}
+
+/* How far out corners are, or a little less. */
+static inline real far_out_of(const difference *d) { return d->doubt * (1 / GLANCE_DOUBT); }
+
+/* With the corner in the spare slot a triangle holds the origin; its weights, and the room there. */
+static inline real room_with_last(const search *q, real weight[DIM + 1])
+{
+    tetra t = {.w = {point(&q->s, 0), point(&q->s, 1), point(&q->s, 2), point(&q->s, 3)}};
+    const real inside = room_of(&t, far_out_of(&q->d));
+    memcpy(weight, t.weight, sizeof t.weight);
+    return inside;
 }
 
 /* They meet, at least that deep; at is the point of both, from A's position. */
@@ -165,37 +211,141 @@ static void spell_met(const search *q, vec at, real upper, const shape *a, const
     r->reserved = 0;
 }
 
-/* The full simplex holds the origin with room; at, by slot, is where A's points of its corners are placed. 0: the
- * weights miss the point of both. */
-static int tell_met(const search *q, const real weight[DIM + 1], const vec at[DIM + 1], const shape *a, const shape *b,
-                    result *r)
+HOT vec blended(const vec x[DIM + 1], const real part[DIM + 1])
 {
-    const real per = 1 / (weight[0] + weight[1] + weight[2] + weight[3]), upper = q->d.doubt - q->inside;
-    vec on_a = axis(0, 0), off = axis(0, 0);
-    for (int i = 0; i <= DIM; i++) {
-        const real part = weight[i] * per;
-        on_a = add(on_a, mul(at[q->s.at[i]], part));
-        off = add(off, mul(point(&q->s, i), part));
-    }
-    if (!(peak(off) <= q->d.doubt / 8) || !(upper * q->d.unscale < 0)) return 0;
-    spell_met(q, on_a, upper, a, b, r);
+    return add(add(add(mul(x[0], part[0]), mul(x[1], part[1])), mul(x[2], part[2])), mul(x[3], part[3]));
+}
+
+/* The tetrahedron, times that power of two, holds the origin with room; at is where A's points of it are placed. 0: the
+ * weights miss the point of both. */
+HOT int tell_met(const search *q, const tetra *t, real by, const vec at[DIM + 1], const shape *a, const shape *b,
+                 result *r)
+{
+    const real *w = t->weight, per = 1 / (w[0] + w[1] + w[2] + w[3]), upper = q->d.doubt - q->inside;
+    const real part[DIM + 1] = {w[0] * per, w[1] * per, w[2] * per, w[3] * per};
+    if (!(peak(blended(t->w, part)) <= q->d.doubt * by / 8) || !(upper * q->d.unscale < 0)) return 0;
+    spell_met(q, blended(at, part), upper, a, b, r);
     return 1;
 }
 
-/* The corner in the spare slot closes a full simplex around the origin, and that is told. */
-static int tell_closed(search *q, const evidence *e, int of_all, const vec at[DIM + 1], const shape *a, const shape *b,
-                       result *r)
+/* The corner in the spare slot closes a full simplex around the origin, and that is told; at, by slot, is where A's
+ * points of it are placed. */
+static inline int tell_closed(search *q, const evidence *e, int of_all, const vec at[DIM + 1], const shape *a,
+                              const shape *b, result *r)
 {
-    real weight[DIM + 1];
-    const real inside = room_with_last(q, weight);
+    const int *of = q->s.at;
+    tetra t = {.w = {point(&q->s, 0), point(&q->s, 1), point(&q->s, 2), point(&q->s, 3)}};
+    const vec on_a[DIM + 1] = {at[of[0]], at[of[1]], at[of[2]], at[of[3]]};
+    const real inside = room_of(&t, far_out_of(&q->d));
     if (!(inside > q->d.doubt)) return 0;
     q->inside = inside;
     if (of_all) keep_evidence(q, e);
-    if (!tell_met(q, weight, at, a, b, r)) return 0;
+    if (!tell_met(q, &t, 1, on_a, a, b, r)) return 0;
     q->s.n = DIM + 1;
     q->pending = 0;
     return 1;
 }
+
+/* ---- digging ---- */
+
+/* Bodies whose first corner lies deep are told by two more, as a rule, and by a point that is within for certain:
+ * sought at once, to both sides of the line from that point to the first corner, they close a tetrahedron around the
+ * origin. Where they do not, the next one is sought beyond the face that the origin is beyond. */
+#define FAN 2
+#define DIGS 3
+#define DEEPEST (FAN + DIGS - 1)
+
+/* The middle of some corners, each times that: a point within. */
+HOT vec middle_of(const list *l, real by)
+{
+    const size_t n = l->count, far = n / EIGHT * l->step;
+    const real *v = l->v;
+    if (n < EIGHT) return mul(add(mul(load(v), by), mul(nth_of(l, n - 1), by)), (real)0.5);
+    vec x = add(mul(load(v), by), mul(load(v + 2 * far), by));
+    vec y = add(mul(load(v + far), by), mul(load(v + 3 * far), by));
+    x = add(add(x, mul(load(v + 4 * far), by)), mul(load(v + 6 * far), by));
+    y = add(add(y, mul(load(v + 5 * far), by)), mul(load(v + 7 * far), by));
+    return mul(add(x, y), (real)1 / EIGHT);
+}
+
+/* And where it is placed. */
+HOT vec inner_point(const body *k, int hull)
+{
+    if (!hull && k->asked == AS_BOX) return axis(0, 0);
+    return mapped(k, middle_of(&k->list, hull ? 1 : k->grain));
+}
+
+/* The ways least along which such corners lie: beside the line from o, within, to the first corner p. How long its
+ * parts are is told by their spreads, which is near enough. */
+HOT void spread_fan(vec o, vec p, vec way[FAN])
+{
+    const real oo = dot(o, o), op = dot(o, p), per = 1 / oo, tall = spread(o);
+    const vec aside = sub(p, mul(o, op * per)), across = mul(cross(o, aside), tall * per * (real)0.58);
+    const vec down = mul(o, spread(aside) / (tall * (1 - op * per))), on = add(mul(aside, (real)0.5), down);
+    way[0] = add(on, across);
+    way[1] = sub(on, across);
+}
+
+/* The point of the tetrahedron across from the face that the origin is beyond. */
+HOT int across_from(const real w[DIM + 1])
+{
+    const int i = w[1] < w[0], k = w[3] < w[2] ? 3 : 2;
+    return w[k] < w[i] ? k : i;
+}
+
+/* Whether there is a line of centres, and the first corner, so high along it, lies deep. */
+HOT int lies_deep(const difference *d, real height)
+{
+    const real l = root(dot(d->c, d->c)), far = far_out_of(d);
+    return l > UNIT * far && -height > l * far / 8;
+}
+
+/* It does; so high, and that is where A's point of it is placed. IN_VAIN: this tells nothing, q->dug corners have been
+ * looked at, and the first is in its slot as before. */
+HOT enum glanced dig_from(search *q, int hulls, int of_all, real height, vec first_at, const shape *a, const shape *b,
+                          result *r)
+{
+    difference *d = &q->d;
+    const vertex first = q->s.slot[0];
+    const vec in_a = inner_point(&d->a, hulls), o = sub(in_a, add(inner_point(&d->b, hulls), d->c));
+    const real far = far_out_of(d), by = hulls ? leveler(far) : 1, l = root(dot(d->c, d->c));
+    vec way[FAN + 1], at[DIM + 1] = {first_at, first_at, first_at, in_a};
+    tetra t = {.w = {mul(first.w, by), o, o, mul(o, by)}};
+    int across = 1, all = DIM;
+    q->dug = 0;
+    if (!(dot(t.w[DIM], t.w[DIM]) > UNIT * UNIT)) return IN_VAIN; /* it gives no direction */
+    spread_fan(t.w[DIM], t.w[0], way);
+    for (;;) {
+        const vec v = way[q->dug < FAN ? q->dug : FAN];
+        evidence e;
+        vertex own, *p = hulls ? &own : &q->s.slot[across];
+        if (!find_corner(d, hulls, v, p, &e)) return UNCLEAR;
+        q->steps = 1 + q->dug++;
+        if (of_all && tell_corner(q, &e, v, p, a, b, r)) return TELLING;
+        t.w[across] = mul(e.w, by);
+        at[across] = e.a;
+        if (q->dug < FAN) {
+            across++;
+            continue;
+        }
+        q->inside = room_of(&t, far * by) / by;
+        if (q->inside > d->doubt) {
+            q->lower = height / l - d->doubt;
+            EACH(q->normal.c[i] = 0 + d->c.c[i] / l); /* where that is 0 it has no sign */
+            q->steps++;
+            q->s.n = all;
+            if (tell_met(q, &t, by, at, a, b, r)) return TELLING;
+        }
+        if (q->dug == DEEPEST) break;
+        across = across_from(t.weight);
+        if (across == DIM) all = DIM + 1; /* a corner instead of the point within */
+        way[FAN] = mul(t.face[across], t.turn);
+    }
+    q->s.slot[0] = first;
+    return IN_VAIN;
+}
+
+/* ---- striding ---- */
 
 /* The corner in the spare slot lies no lower along v. */
 static inline int leads_nowhere(const search *q)
@@ -217,7 +367,7 @@ static enum glanced stride_among(search *q, portion *k, int max_steps, const sha
         const int heads = headings-- > 0, of_all = k->n == 1;
         q->way = heads ? heading(q, centres) : q->v;
         if (!seek_corner(q, &e, at)) return UNCLEAR;
-        if (of_all && tell_stride(q, &e, a, b, r)) return TELLING;
+        if (of_all && tell_corner(q, &e, q->way, spare(&q->s), a, b, r)) return TELLING;
         q->steps++;
         if (q->s.n == DIM && tell_closed(q, &e, of_all, at, a, b, r)) return TELLING;
         q->stood = leads_nowhere(q) || (!of_all && !heads && !(dot(q->v, e.w) < q->vv / 2));
@@ -232,6 +382,21 @@ static enum glanced stride_among(search *q, portion *k, int max_steps, const sha
     return STRODE;
 }
 
+/* From the corner in the first slot, if it lies deep, and that has not been tried. */
+static enum glanced dig_anywhere(search *q, int of_all, int max_steps, const shape *a, const shape *b, result *r)
+{
+    const real height = -dot(q->d.c, q->v);
+    if (q->dug >= 0) return IN_VAIN;
+    q->dug = 0;
+    if (max_steps <= DEEPEST || !lies_deep(&q->d, height)) return IN_VAIN;
+    const enum glanced seen = dig_from(q, 0, of_all, height, place(&q->d.a, q->s.slot[0].x), a, b, r);
+    if (seen == IN_VAIN) {
+        q->s.n = 1;
+        q->steps = 1 + q->dug;
+    }
+    return seen;
+}
+
 static enum glanced stride(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
     portion k = first_portion(&q->d);
@@ -241,7 +406,8 @@ static enum glanced stride(search *q, int max_steps, const shape *a, const shape
         keep_evidence(q, &first);
         look_at_portion(&q->d, &k, k.n);
     }
-    const enum glanced seen = stride_among(q, &k, max_steps, a, b, r);
+    enum glanced seen = dig_anywhere(q, k.n == 1, max_steps, a, b, r);
+    if (seen == IN_VAIN) seen = stride_among(q, &k, max_steps, a, b, r);
     look_at_portion(&q->d, &k, 1);
     return seen;
 }
@@ -296,6 +462,7 @@ static APART enum glanced stride_in_frame(search *q, int max_steps, const shape 
     vertex *first = &q->s.slot[0];
     *first = *spare(&q->s);
     q->d.doubt = doubt_in_frame(&q->d);
+    q->dug = -1; /* whatever was tried outside is not counted here */
     bring_frame_to_size(&q->d);
     first->w = mul(first->w, q->d.scale * before.unscale);
     enum glanced seen = IN_VAIN;

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+/* Whether two hulls of some corners meet, told at the door: the glance, and the digging where that is deep, before
+ * anything is set up for what else may be asked, of bodies or about them. They are those of glance.h and stride.h to
+ * the bit, and what has told nothing the strides go on from. */
+#ifndef GJK_CORE_HULLS_H
+#define GJK_CORE_HULLS_H
+
+#include "stride.h"
+
+#if DIM == 3
+
+/* Two clouds without radii, and nothing is asked but what everyone asks. */
+HOT int are_plain_hulls(const shape *a, const shape *b, const options *o, const result *r)
+{
+    return a && b && r && a->support == pub(support_points) && b->support == pub(support_points) && a->radius == 0 &&
+           b->radius == 0 && (!o || (asks_nothing_else(o) && !o->cache && o->max_steps == 0));
+}
+
+/* The body of one. 0: it is none, or has so few corners that it may be thin, or they do not lie one beside another. */
+HOT int take_hull(body *k, const shape *s)
+{
+    const points *p = s->data;
+    if (!p || !p->v || p->count < EIGHT || !(p->stride == 0 || p->stride == DIM * sizeof(real)) || !(p->reach > TINY))
+        return 0;
+    k->data = p;
+    k->posed = s->pose != NULL;
+    if (k->posed) k->m = s->pose->m;
+    k->asked = AS_LIST;
+    k->list = (list){p->v, p->count, DIM, p->reach};
+    know_reach(k, p->reach);
+    return 1;
+}
+
+HOT real square_of_hull(const body *k) { return k->posed ? sum_of_all(squared_columns(k->m, 1)) : 1; }
+
+/* The first corner lies deep: few corners of long lists will do. */
+static APART enum glanced dig_at_door(search *q, real height, vec first_at, const shape *a, const shape *b, result *r)
+{
+    portion k = first_portion(&q->d);
+    if (k.n > 1) look_at_portion(&q->d, &k, k.n);
+    const enum glanced seen = dig_from(q, 1, k.n == 1, height, first_at, a, b, r);
+    if (k.n > 1) look_at_portion(&q->d, &k, 1);
+    return seen;
+}
+
+/* UNTRIED: they are no such hulls, or of sizes that a glance does not know. */
+static APART enum glanced glance_at_hulls(search *q, const shape *a, const shape *b, result *r)
+{
+    difference *d = &q->d;
+    vertex *p = &q->s.slot[0];
+    evidence e;
+    if (!take_hull(&d->a, a) || !take_hull(&d->b, b)) return UNTRIED;
+    const vec c = offset(a->pose, b->pose), v = mul(c, -1);
+    const real cc = dot(v, v);
+    if (!(cc > 1 / PLAIN) || !point_of_hull(&d->a, c, FIRST_SIGHT, &p->x, &e.a) ||
+        !point_of_hull(&d->b, v, FIRST_SIGHT, &p->y, &e.b))
+        return UNTRIED;
+    e.w = sub(e.a, add(e.b, c));
+    e.height = dot(v, e.w);
+    const real map_a = square_of_hull(&d->a), map_b = square_of_hull(&d->b);
+    const real set_a = square_of_list(&d->a.list, 1), set_b = square_of_list(&d->b.list, 1);
+    const real square = map_a * set_a + map_b * set_b + cc;
+    if (!are_squares_plain(map_a, map_b, set_a, set_b, square)) return UNTRIED;
+    const real doubt = GLANCE_DOUBT * root(square);
+    if (e.height > 0) {
+        weigh_evidence(&e, v, doubt);
+        if (e.lower > 0) {
+            q->steps = 0;
+            d->calls = 2;
+            spell_sharp(q, &e, v, 1, a, b, r);
+            return TELLING;
+        }
+    }
+    stay_outside(d, a, b);
+    d->doubt = doubt;
+    start_glance(q, v);
+    p->w = e.w;
+    q->listed = 1;
+    q->thin = q->planar = q->flat = UNTRIED;
+    q->dug = 0;
+    if (!lies_deep(d, e.height)) return IN_VAIN;
+    const enum glanced seen = dig_at_door(q, e.height, e.a, a, b, r);
+    return seen == UNCLEAR ? UNTRIED : seen;
+}
+
+#else
+#define are_plain_hulls(a, b, o, r) 0
+#define glance_at_hulls(q, a, b, r) UNTRIED
+#endif
+
+#endif
