@@ -137,8 +137,7 @@ static int run_to_dip(search *q, const shape *a, const shape *b, const goal *g, 
     if (q->turned) *end = STILL;
     if (q->turned) *upper = certify(q, weight);
     else if (*end != FAULT) *end = sharpen_on(q, &here, *end, upper, weight);
-    if (*end != FAULT && !(q->lower <= *upper)) *end = FAULT;
-    return 1;
+    return *end != FAULT && q->lower <= *upper; /* else numbers are lost, as where a cone is flat to the last */
 }
 
 /* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation;
@@ -147,7 +146,7 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
                     real *upper, real weight[])
 {
     int warm = o->cache != NULL;
-    enum end end;
+    enum end end = OPEN;
     if (walked != FAULT) {
         settle_rest(&q->d, a, b);
         goal here = scaled(g, q->d.scale);
@@ -164,8 +163,10 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
         if (end != FAULT && q->lower <= *upper) return end;
     }
     int opened = q->turned >= 0 && !g->exact && have_heights(a, b) && open_cold(q, a, b, o->slack);
+    end = OPEN;
     if (opened && run_to_dip(q, a, b, g, &end, upper, weight)) return end;
-    opened &= !warm;
+    opened &= !warm && end == OPEN;
+    if (q->turned > 0) q->turned = 0;
     for (;;) {
         end = FAULT;
         if (warm) warm = open_warm(q, a, b, o->slack, o->cache);

@@ -689,8 +689,8 @@ static void put_on_cone(const bent *b, const limb *l, int at, vertex *c)
 {
     const int base = is_on_edge(b, at) && !is_on_slant(b, at);
     const real times = base ? 1 : (1 + b->sign[at]) / 2, x = dot(l->row[0], b->n), y = dot(l->row[1], b->n);
-    const real per = times > 0 ? times / root(x * x + y * y) : 0, s = base ? b->share[0] : x * per,
-               t = base ? b->share[1] : y * per;
+    const real square = x * x + y * y, per = square > REAL_MIN / UNIT ? times / root(square) : 0,
+               s = base ? b->share[0] : x * per, t = base ? b->share[1] : y * per;
     const vec p = {{s * l->length[0], t * l->length[1], (1 - 2 * times) * l->length[2]}};
     if (l->of_b) c->y = (vec){{-p.c[0], -p.c[1], p.c[2]}};
     else c->x = p;
