@@ -137,7 +137,9 @@ static int run_to_dip(search *q, const shape *a, const shape *b, const goal *g, 
     if (q->turned) *end = STILL;
     if (q->turned) *upper = certify(q, weight);
     else if (*end != FAULT) *end = sharpen_on(q, &here, *end, upper, weight);
-    return *end != FAULT && q->lower <= *upper; /* else numbers are lost, as where a cone is flat to the last */
+    if (*end != FAULT && q->lower <= *upper) return 1;
+    *end = FAULT; /* numbers are lost, as where a cone is flat to the last: from the start again */
+    return 0;
 }
 
 /* Searches, from the cache if that fits. Returns how the search ended, with an upper bound of the cores' separation;
@@ -146,7 +148,7 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
                     real *upper, real weight[])
 {
     int warm = o->cache != NULL;
-    enum end end = OPEN;
+    enum end end;
     if (walked != FAULT) {
         settle_rest(&q->d, a, b);
         goal here = scaled(g, q->d.scale);
