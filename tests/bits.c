@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x560d91128fbb92a5, 0x54e497f7707b7082, 0xccbb35b30ff815d2};
+static const uint64_t known[3] = {0x3d6914fd0fcd4b2d, 0x17617ffc100ec3f5, 0x53fb499d4dc23d4f};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x9632044ff8a8afa9, 0xaed757c440b4f911, 0x908f643b3f270cf1};
+static const uint64_t known[3] = {0x0fcd8ea260fb7498, 0xd9581a34d8b181cd, 0x7d0390be67f9c2ac};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x2930ebc2168c19f8, 0x8f3574bcfb72e05c, 0x0676d4c51ad96022};
+static const uint64_t known[3] = {0x05e3714cf4435664, 0x01a5054e1f1ac951, 0xc9af129d86373665};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x7965a852235a022f, 0x854a3c5d34e76403, 0x26c88af64110c3ab};
+static const uint64_t known[3] = {0x7e8ea9f486835c7c, 0xc988bdea89acf3f8, 0x228e6f16a364cb41};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -15,13 +15,15 @@
 /* Adds |L n| to the height along n; it is straight, of one row, or round. A cone's adds what |L n| + lean.n is above 0,
  * if it is: |L n| + lean.n times (1 + sign) / 2, the sign that of it. */
 typedef struct limb {
-    vec row[DIM]; /* of L, so many, */
-    int rows;     /*   and then 0 */
-    int partial;  /* a cone's */
+    vec row[DIM];    /* of L, so many, */
+    int rows;        /*   and then 0 */
+    vec square[DIM]; /* of a round one: L^T L */
+    int partial;     /* a cone's */
     vec lean;
-    real size;        /* bounds |L| */
-    real steep;       /* of a cone's, and |lean| */
-    int of_b, first;  /* the body's axes that it is made of, from that on */
+    real size;       /* bounds |L| */
+    real vague;      /* what counts for no more than that may be of either sign; of a round one that is no cone's all */
+    real steep;      /* of a cone's, and |lean| */
+    int of_b, first; /* the body's axes that it is made of, from that on */
     real length[DIM]; /* along these, in the body's own unit; of a cone's also half its length, beside these */
 } limb;
 
@@ -67,8 +69,13 @@ static void add_limb(bulk *b, const stand *k, int of_b, int first, int rows, con
         square += dot(l->row[r], l->row[r]);
     }
     for (int r = rows; r < DIM; r++) l->row[r] = axis(0, 0);
+    for (int i = 0; i < DIM && rows > 1; i++) {
+        l->square[i] = mul(l->row[0], l->row[0].c[i]);
+        for (int r = 1; r < rows; r++) l->square[i] = add(l->square[i], mul(l->row[r], l->row[r].c[i]));
+    }
     l->rows = rows;
     l->size = root(square) * (1 + 16 * UNIT);
+    l->vague = rows > 1 ? REAL_MAX : 64 * UNIT * l->size;
     b->limbs += l->size > 0;
 }
 
@@ -98,6 +105,7 @@ static int add_cone(bulk *b, const stand *k, int of_b, real radius, real half)
     b->middle = add(b->middle, up);
     l->lean = mul(up, -2);
     l->steep = l->size + length(l->lean) * (1 + 16 * UNIT);
+    l->vague = 64 * UNIT * l->steep;
     return 1;
 }
 #endif
@@ -145,17 +153,31 @@ static inline unsigned edged_axes(const shape *s)
     return s->support == pub(support_box) ? (1u << DIM) - 1 : 0;
 }
 
+#if DIM == 3
+static inline int are_parallel(vec u, vec v)
+{
+    const real along = dot(u, v), most = dot(u, u) * dot(v, v);
+    if (2 * along * along < most) return 0;
+    const vec n = cross(u, v);
+    return dot(n, n) <= 4096 * UNIT * UNIT * most;
+}
+#endif
+
 /* Whether one of these axes of a body is one of the other's, to rounding: edges and faces may lie on one another then,
  * so that n is on more edges than tell their shares. A few corners find such a place. */
 static int are_aligned(const stand *a, unsigned axes_a, const stand *b, unsigned axes_b)
 {
 #if DIM == 3
-    for (int i = 0; i < DIM; i++)
-        for (int j = 0; j < DIM; j++) {
-            if (!(axes_a >> i & 1 && axes_b >> j & 1)) continue;
-            const vec u = unit_size(axis_by_map(a, i)), v = unit_size(axis_by_map(b, j)), n = cross(u, v);
-            if (dot(n, n) <= 4096 * UNIT * UNIT * (dot(u, u) * dot(v, v))) return 1;
-        }
+    vec v[DIM];
+    if (axes_a == 0) return 0;
+    for (int j = 0; j < DIM; j++)
+        if (axes_b >> j & 1) v[j] = unit_size(axis_by_map(b, j));
+    for (int i = 0; i < DIM; i++) {
+        if (!(axes_a >> i & 1)) continue;
+        const vec u = unit_size(axis_by_map(a, i));
+        for (int j = 0; j < DIM; j++)
+            if (axes_b >> j & 1 && are_parallel(u, v[j])) return 1;
+    }
 #else
     (void)a, (void)axes_a, (void)b, (void)axes_b;
 #endif
@@ -232,44 +254,60 @@ static inline void add_square(quadric *f, const real d[ACROSS], real k)
         for (int j = 0; j <= i; j++) f->c[i][j] += k * d[i] * d[j];
 }
 
-/* A straight limb is no more than its slope; where its sign is not certain, or not that, n is off it. */
-static void add_straight(bent *b, const limb *l, real sign)
+/* How n stands to a limb: L n, its length, and what the limb counts for, if it does; of a straight one L n's number. */
+typedef struct bearing {
+    vec along;
+    real far, here;
+} bearing;
+
+static inline bearing bearing_of(const limb *l, vec n)
 {
-    const real here = sign * dot(l->row[0], b->n), slop = 8 * UNIT * l->size;
-    b->height += here;
-    if (!(here > slop)) b->height_off += 2 * (size(here) + slop);
+    bearing v = {axis(0, 0), 0, 0};
+    if (l->rows == 1) {
+        v.here = dot(l->row[0], n);
+        return v;
+    }
+    EACH(v.along.c[i] = dot(l->row[i], n));
+    v.far = length(v.along);
+    v.here = l->partial ? v.far + dot(l->lean, n) : v.far;
+    return v;
+}
+
+/* What is so much, where that is not certain to be right: off by twice as much. */
+static inline void count_off(bent *b, real off, real slop)
+{
+    if (!(off < -slop)) b->height_off += 2 * (size(off) + slop);
+}
+
+/* A straight limb is no more than its slope; where its sign is not certain, or not that, n is off it. */
+static void add_straight(bent *b, const limb *l, real here, real sign)
+{
+    b->height += sign * here;
+    count_off(b, -(sign * here), 8 * UNIT * l->size);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += sign * dot(l->row[0], b->e[j]);
 }
 
-/* |L n|, its slope, and its curvature times that. */
-static inline real add_round(bent *b, const limb *l, real times, real slope[ACROSS])
+/* The slope of |L n|, and its curvature so many times. */
+static inline void add_round(bent *b, const limb *l, real far, real times, real slope[ACROSS])
 {
-    real a[DIM], d[DIM][ACROSS], square = 0;
-    for (int r = 0; r < DIM; r++) {
-        a[r] = dot(l->row[r], b->n);
-        square += a[r] * a[r];
-        for (int j = 0; j < ACROSS; j++) d[r][j] = dot(l->row[r], b->e[j]);
+    const real per = 1 / far, share = l->size * per, bow = per * times;
+    vec g[ACROSS];
+    for (int j = 0; j < ACROSS; j++) {
+        EACH(g[j].c[i] = dot(l->square[i], b->e[j]));
+        slope[j] = dot(g[j], b->n) * per;
     }
-    const real far = root(square), per = 1 / far, share = l->size * per, bow = per * times;
-    for (int j = 0; j < ACROSS; j++) slope[j] = 0;
-    for (int r = 0; r < DIM; r++) {
-        a[r] *= per;
-        for (int j = 0; j < ACROSS; j++) slope[j] += a[r] * d[r][j];
-    }
-    for (int r = 0; r < DIM; r++) {
-        for (int j = 0; j < ACROSS; j++) d[r][j] -= a[r] * slope[j];
-        add_square(&b->bow, d[r], bow);
-    }
+    for (int i = 0; i < ACROSS; i++)
+        for (int j = 0; j <= i; j++) b->bow.c[i][j] += bow * (dot(g[j], b->e[i]) - slope[i] * slope[j]);
     b->slope_off += 32 * UNIT * share * l->size;
     b->bow_off += 512 * UNIT * share * share * l->size;
     b->sway = larger(share, b->sway);
-    return far;
 }
 
-static void add_whole(bent *b, const limb *l)
+static void add_whole(bent *b, const limb *l, real far)
 {
     real slope[ACROSS];
-    b->height += add_round(b, l, 1, slope);
+    b->height += far;
+    add_round(b, l, far, 1, slope);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += slope[j];
 }
 
@@ -287,41 +325,32 @@ static void add_edge(bent *b, const limb *l, int at)
 }
 
 #if DIM == 3
-/* Below 0 a cone's counts for nothing. */
-static void add_nothing(bent *b, const limb *l)
+/* A cone's above 0, for all that it is. */
+static void add_above(bent *b, const limb *l, const bearing *v)
 {
-    const real x = dot(l->row[0], b->n), y = dot(l->row[1], b->n), here = root(x * x + y * y) + dot(l->lean, b->n);
-    const real slop = 16 * UNIT * l->steep;
-    if (!(here < -slop)) b->height_off += 2 * (size(here) + slop);
-}
-
-/* Above 0 for all that it is. */
-static void add_above(bent *b, const limb *l)
-{
-    const real slop = 16 * UNIT * l->steep;
     real slope[ACROSS];
-    const real here = add_round(b, l, 1, slope) + dot(l->lean, b->n);
-    b->height += here;
-    if (!(here > slop)) b->height_off += 2 * (size(here) + slop);
+    b->height += v->here;
+    count_off(b, -v->here, 16 * UNIT * l->steep);
+    add_round(b, l, v->far, 1, slope);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += slope[j] + dot(l->lean, b->e[j]);
 }
 
 /* Where n is to lie between these, for half of it, and its share of the other half. */
-static void add_slant(bent *b, const limb *l, int at)
+static void add_slant(bent *b, const limb *l, const bearing *v, int at)
 {
     const quadric before = b->bow;
     real slope[ACROSS];
-    const real here = add_round(b, l, (1 + b->sign[at]) / 2, slope) + dot(l->lean, b->n);
+    add_round(b, l, v->far, (1 + b->sign[at]) / 2, slope);
     for (int i = 0; i < ACROSS; i++)
         for (int j = 0; j <= i; j++) b->part.c[i][j] += (b->bow.c[i][j] - before.c[i][j]) / 2;
     b->of[b->rows] = at;
-    b->off[b->rows] = here / 2;
+    b->off[b->rows] = v->here / 2;
     for (int j = 0; j < ACROSS; j++) {
         b->d[b->rows][j] = (slope[j] + dot(l->lean, b->e[j])) / 2;
         b->slope[j] += b->d[b->rows][j];
     }
     b->rows++;
-    b->height_off += 2 * (size(here) + 16 * UNIT * l->steep);
+    b->height_off += 2 * (size(v->here) + 16 * UNIT * l->steep);
     b->slope_off += 32 * UNIT * l->steep;
     b->kink_off += 128 * UNIT * l->steep;
 }
@@ -333,31 +362,15 @@ static void add_base(bent *b, const limb *l, int at)
     b->height += dot(l->lean, b->n);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += dot(l->lean, b->e[j]);
 }
-#endif
 
-/* sign: see bent. */
-static void bent_at(const bulk *of, vec n, unsigned edges, unsigned slants, const real sign[MOST_LIMBS], bent *b)
+static void add_cones(bent *b, const limb *l, const bearing *v, int at)
 {
-    *b = (bent){.n = n, .edges = edges, .slants = slants, .height = dot(of->middle, n), .slope_off = 32 * UNIT};
-    memcpy(b->sign, sign, sizeof b->sign);
-    put_across(n, b->e);
-    for (int j = 0; j < ACROSS; j++) b->slope[j] = dot(of->middle, b->e[j]);
-    for (int i = 0; i < of->limbs; i++) {
-        const limb *l = &of->limb[i];
-#if DIM == 3
-        if (l->partial) {
-            if (is_on_slant(b, i)) add_slant(b, l, i);
-            else if (is_on_edge(b, i)) add_base(b, l, i);
-            else if (sign[i] < 0) add_nothing(b, l);
-            else add_above(b, l);
-            continue;
-        }
-#endif
-        if (is_on_edge(b, i)) add_edge(b, l, i);
-        else if (l->rows == 1) add_straight(b, l, sign[i]);
-        else add_whole(b, l);
-    }
+    if (is_on_slant(b, at)) add_slant(b, l, v, at);
+    else if (is_on_edge(b, at)) add_base(b, l, at);
+    else if (b->sign[at] < 0) count_off(b, v->here, 16 * UNIT * l->steep); /* below 0 it counts for nothing */
+    else add_above(b, l, v);
 }
+#endif
 
 /* The height of A - B along n. */
 static real height_of_bulk(const bulk *of, vec n)
@@ -365,10 +378,8 @@ static real height_of_bulk(const bulk *of, vec n)
     real height = dot(of->middle, n);
     for (int k = 0; k < of->limbs; k++) {
         const limb *l = &of->limb[k];
-        vec a = axis(0, 0);
-        EACH(a.c[i] = dot(l->row[i], n));
-        const real far = length(a), here = l->partial ? far + dot(l->lean, n) : far;
-        height += larger(here, 0);
+        const real here = bearing_of(l, n).here;
+        height += l->rows == 1 ? size(here) : larger(here, 0);
     }
     return height;
 }
@@ -499,6 +510,64 @@ static inline vec turn_of(const bent *b, const real t[ACROSS])
     return ACROSS > 1 ? add(turn, mul(b->e[ACROSS - 1], t[ACROSS - 1])) : turn;
 }
 
+/* ---- rolling there ---- */
+
+/* A direction on its way to where the height is least nearby, edges and all: each roll goes as far as the first edge on
+ * the way, or on along those that it is to lie on, till their shares let one go. */
+typedef struct rolling {
+    const bulk *of;
+    vec n;
+    bearing to[MOST_LIMBS]; /* how n stands to these, where it was looked at last */
+    real sign[MOST_LIMBS];  /* as which they count: see bent */
+    unsigned edges, slants; /* on which n is to lie */
+    unsigned shut;          /* whose points it is to lie on no more */
+    int left, held;         /* the limb just let go, and one that is not to be let go again; -1: none */
+    real most, last;        /* how far a roll leads at most, and the height before it */
+} rolling;
+
+static void start_rolling(rolling *s, const bulk *of, vec n)
+{
+    *s = (rolling){.of = of, .n = n, .left = -1, .held = -1, .most = ROLL, .last = REAL_MAX};
+    for (int i = 0; i < of->limbs; i++) s->sign[i] = dot(of->limb[i].row[0], n) < 0 ? -1 : 1;
+}
+
+/* Nothing counts yet but where the middle is. */
+static inline void start_bend(const rolling *s, bent *b)
+{
+    b->n = s->n;
+    put_across(s->n, b->e);
+    b->height = dot(s->of->middle, s->n);
+    for (int j = 0; j < ACROSS; j++) b->slope[j] = dot(s->of->middle, b->e[j]);
+    b->bow = b->kink = b->part = (quadric){{{0}}};
+    b->slope_off = 32 * UNIT;
+    b->bow_off = b->kink_off = b->height_off = b->sway = 0;
+    b->edges = s->edges;
+    b->slants = s->slants;
+    b->rows = 0;
+}
+
+/* How the height changes where n leads now. */
+static void bend(rolling *s, bent *b)
+{
+    const bulk *of = s->of;
+    const unsigned kept = s->left < 0 ? s->edges : s->edges | 1u << s->left; /* as which these count is known better */
+    start_bend(s, b);
+    for (int i = 0; i < of->limbs; i++) {
+        const limb *l = &of->limb[i];
+        s->to[i] = bearing_of(l, s->n);
+        if (size(s->to[i].here) > l->vague && !(kept >> i & 1)) s->sign[i] = s->to[i].here < 0 ? -1 : 1;
+        b->sign[i] = s->sign[i];
+#if DIM == 3
+        if (l->partial) add_cones(b, l, &s->to[i], i);
+        else
+#endif
+            if (is_on_edge(b, i))
+            add_edge(b, l, i);
+        else if (l->rows == 1) add_straight(b, l, s->to[i].here, s->sign[i]);
+        else add_whole(b, l, s->to[i].far);
+    }
+}
+
 /* The first edge on the way. */
 typedef struct meeting {
     int limb, slant; /* -1: none */
@@ -516,30 +585,35 @@ static inline void meet_edge(meeting *m, int at, int slant, real here, real way,
 }
 
 /* Whether the turn leads toward where the round limb has no length, from not far away. */
-static inline int leads_to_point(const limb *l, vec n, vec turn)
+static inline int leads_to_point(const limb *l, const bearing *v, vec turn)
 {
-    const real x = dot(l->row[0], n), y = dot(l->row[1], n), to_x = dot(l->row[0], turn), to_y = dot(l->row[1], turn);
-    const real off = x * x + y * y;
-    return off <= l->size * l->size / 64 && 4 * (to_x * to_x + to_y * to_y) >= off;
+    const real off = v->far * v->far;
+    if (!(off <= l->size * l->size / 64)) return 0;
+    const real to_x = dot(l->row[0], turn), to_y = dot(l->row[1], turn);
+    return 4 * (to_x * to_x + to_y * to_y) >= off;
 }
 
-/* The limb to whose edge the turn t leads first. */
-static meeting limb_met(const bulk *of, const bent *b, unsigned shut, const real t[ACROSS])
+/* How much what the cone's limb counts for changes on the way. */
+static inline real change_of_cone(const limb *l, const bearing *v, vec turn)
+{
+    const real x = dot(l->row[0], turn), y = dot(l->row[ACROSS - 1], turn);
+    return (v->along.c[0] * x + v->along.c[ACROSS - 1] * y) / v->far + dot(l->lean, turn);
+}
+
+/* The limb to whose edge the turn leads first. */
+static meeting limb_met(const rolling *s, const bent *b, vec turn)
 {
     meeting m = {-1, 0, 1};
-    const vec turn = turn_of(b, t);
-    for (int i = 0; i < of->limbs; i++) {
-        const limb *l = &of->limb[i];
+    for (int i = 0; i < s->of->limbs; i++) {
+        const limb *l = &s->of->limb[i];
+        const bearing *v = &s->to[i];
         if (is_on_edge(b, i)) continue;
-        if (l->rows > 1 && !(shut >> i & 1) && b->rows + l->rows <= ACROSS && leads_to_point(l, b->n, turn) &&
-            (!l->partial || dot(l->lean, b->n) > 0))
+        if (l->rows > 1 && !(s->shut >> i & 1) && b->rows + l->rows <= ACROSS && leads_to_point(l, v, turn) &&
+            (!l->partial || v->here > v->far))
             return (meeting){i, 0, 0};
         if (b->rows == ACROSS) continue;
-        if (l->rows == 1) meet_edge(&m, i, 0, dot(l->row[0], b->n), dot(l->row[0], turn), b->sign[i]);
-        if (!l->partial) continue;
-        const real x = dot(l->row[0], b->n), y = dot(l->row[ACROSS - 1], b->n), far = root(x * x + y * y);
-        const real to = (x * dot(l->row[0], turn) + y * dot(l->row[ACROSS - 1], turn)) / far + dot(l->lean, turn);
-        meet_edge(&m, i, 1, far + dot(l->lean, b->n), to, b->sign[i]);
+        if (l->rows == 1) meet_edge(&m, i, 0, v->here, dot(l->row[0], turn), b->sign[i]);
+        if (l->partial) meet_edge(&m, i, 1, v->here, change_of_cone(l, v, turn), b->sign[i]);
     }
     return m;
 }
@@ -554,19 +628,6 @@ static void add_kinks(const bulk *of, bent *b)
         const real size = is_on_slant(b, b->of[r]) ? l->steep : l->size;
         for (int j = 0; j < ACROSS; j++) b->slope[j] += b->share[r] * b->d[r][j];
         add_square(&b->kink, b->d[r], 2 * (1 - share_of_limb(b, b->of[r])) / size);
-    }
-}
-
-/* The signs of straight limbs and of cones', but for those whose edge n is on. */
-static void tell_signs(const bulk *of, vec n, unsigned edges, real sign[MOST_LIMBS])
-{
-    for (int i = 0; i < of->limbs; i++) {
-        const limb *l = &of->limb[i];
-        if (edges >> i & 1 || (l->rows > 1 && !l->partial)) continue;
-        real here = dot(l->row[0], n);
-        if (l->partial)
-            here = root(here * here + dot(l->row[ACROSS - 1], n) * dot(l->row[ACROSS - 1], n)) + dot(l->lean, n);
-        if (size(here) > 64 * UNIT * (l->partial ? l->steep : l->size)) sign[i] = here < 0 ? -1 : 1;
     }
 }
 
@@ -586,93 +647,107 @@ static vec beside_point(const bent *b, const limb *l)
     return mul(n, 1 / length(n));
 }
 
+/* By how much the height changes with the turn t, to the first order. */
+static inline real change_along(const bent *b, const real t[ACROSS])
+{
+    real sum = 0;
+    for (int j = 0; j < ACROSS; j++) sum += b->slope[j] * t[j];
+    for (int r = 0; r < b->rows; r++)
+        for (int j = 0; j < ACROSS; j++) sum += b->share[r] * b->d[r][j] * t[j];
+    return sum;
+}
+
 /* No more is to be had by the turn t, so far, than roundings are. */
 static int is_at_rest(const bent *b, const real t[ACROSS], real far)
 {
-    real drop = 0;
     for (int r = 0; r < b->rows; r++) {
         const real off = is_on_slant(b, b->of[r]) ? b->share[r] - b->sign[b->of[r]] : 0;
         if (off * off > 4 * UNIT) return 0;
     }
-    if (far * far <= 4 * UNIT) return 1;
-    for (int j = 0; j < ACROSS; j++) drop += b->slope[j] * t[j];
-    for (int r = 0; r < b->rows; r++)
-        for (int j = 0; j < ACROSS; j++) drop += b->share[r] * b->d[r][j] * t[j];
-    return b->rows < ACROSS && size(drop) <= 4 * UNIT * far;
+    return far * far <= 4 * UNIT || (b->rows < ACROSS && size(change_along(b, t)) <= 4 * UNIT * far);
 }
 
-/* Of edges that n is to lie on, those that their shares let go are left. -1: none. */
-static int let_go(const bulk *of, const bent *b, int but, vec *n, real sign[MOST_LIMBS])
+/* The edge whose share is too large for n to stay on it is left. 0: there is none. */
+static int let_go(rolling *s, const bent *b)
 {
-    const int gone = limb_let_go(b, but);
-    if (gone < 0) return -1;
-    sign[gone] = 1;
-    if (of->limb[gone].rows > 1 && !is_on_slant(b, gone)) {
-        *n = beside_point(b, &of->limb[gone]);
-        return gone;
-    }
-    for (int r = 0; r < b->rows; r++)
-        if (b->of[r] == gone) sign[gone] = b->share[r] < 0 ? -1 : 1;
-    return gone;
+    const int gone = limb_let_go(b, s->held);
+    if (gone < 0) return 0;
+    const limb *l = &s->of->limb[gone];
+    s->sign[gone] = 1;
+    if (l->rows > 1 && !is_on_slant(b, gone)) s->n = beside_point(b, l);
+    else
+        for (int r = 0; r < b->rows; r++)
+            if (b->of[r] == gone) s->sign[gone] = b->share[r] < 0 ? -1 : 1;
+    s->edges &= ~(1u << gone);
+    s->slants &= ~(1u << gone);
+    s->shut |= 1u << gone;
+    s->left = gone;
+    return 1;
 }
 
 /* The shares of slants, for the curvature there. */
-static inline void keep_shares(const bent *b, real sign[MOST_LIMBS])
+static inline void keep_shares(rolling *s, const bent *b)
 {
     for (int r = 0; r < b->rows; r++)
-        if (is_on_slant(b, b->of[r])) sign[b->of[r]] = larger(-1, smaller(1, b->share[r]));
+        if (is_on_slant(b, b->of[r])) s->sign[b->of[r]] = larger(-1, smaller(1, b->share[r]));
 }
 
-/* As the curvature has them. */
-static inline void take_shares(bent *b)
+enum rolled { ROLLS_ON, RESTS, STRAYS };
+
+/* One roll, by the turn t. STRAYS: it has no end. */
+static enum rolled roll_by(rolling *s, const bent *b, real t[ACROSS])
 {
-    for (int r = 0; r < b->rows; r++)
+    const real far = length_across(t), share = far > s->most ? s->most / far : 1;
+    if (!(far <= REAL_MAX)) return STRAYS;
+    if ((b->rows < ACROSS || far * far <= 4 * UNIT) && let_go(s, b)) return ROLLS_ON;
+    keep_shares(s, b);
+    for (int j = 0; j < ACROSS; j++) t[j] *= share;
+    const vec turn = turn_of(b, t);
+    const meeting m = limb_met(s, b, turn);
+    if (m.limb >= 0) s->edges |= 1u << m.limb;
+    if (m.slant) s->slants |= 1u << m.limb;
+    s->held = m.limb == s->left && m.part * far <= 64 * UNIT ? s->left : -1;
+    s->left = -1;
+    s->n = add(s->n, mul(turn, m.part));
+    s->n = mul(s->n, 1 / length(s->n));
+    return m.limb < 0 && is_at_rest(b, t, far) ? RESTS : ROLLS_ON;
+}
+
+/* What there is where n has come to rest, its edges' shares and kinks with it. 0: they do not hold it. */
+static int come_to_rest(rolling *s, bent *b)
+{
+    real t[ACROSS];
+    s->left = -1;
+    bend(s, b);
+    roll(b, s->most, t);
+    for (int r = 0; r < b->rows; r++) /* as the curvature has them */
         if (is_on_slant(b, b->of[r])) b->share[r] = b->sign[b->of[r]];
+    add_kinks(s->of, b);
+    return limb_let_go(b, -1) < 0;
+}
+
+/* The next turn. */
+static inline void aim(rolling *s, bent *b, real t[ACROSS])
+{
+    s->most = b->height > s->last + 64 * UNIT ? s->most / 2 : smaller((real)1.25 * s->most, ROLL);
+    s->last = b->height;
+    roll(b, s->most, t);
 }
 
 /* So near to a way where heights are known to be the least nearby a direction is given up. */
 #define CLOSE_BY ((real)0.9)
 
-/* Turns n to where the height is least nearby, edges and all: each roll goes as far as the first edge on the way, or
- * on along those that n lies on, till their shares let one go. 0: it is not found, or leads to the one known, if any.
- */
+/* Turns n to where the height is least nearby. 0: it is not found, or leads to the one known, if any. */
 static int find_least(const bulk *of, vec n, const vec *known, bent *b)
 {
-    real sign[MOST_LIMBS] = {0}, most = ROLL, last = REAL_MAX, t[ACROSS];
-    unsigned edges = 0, slants = 0, shut = 0;
-    int left = -1, held = -1;
-    for (int i = 0; i < of->limbs; i++) sign[i] = dot(of->limb[i].row[0], n) < 0 ? -1 : 1;
-    for (int i = 0; i < ROLLS && !(known && dot(n, *known) > CLOSE_BY); i++) {
-        tell_signs(of, n, left < 0 ? edges : edges | 1u << left, sign);
-        bent_at(of, n, edges, slants, sign, b);
-        most = b->height > last + 64 * UNIT ? most / 2 : smaller((real)1.25 * most, ROLL);
-        last = b->height;
-        roll(b, most, t);
-        const real far = length_across(t), share = far > most ? most / far : 1;
-        if (!(far <= REAL_MAX)) return 0;
-        const int gone = b->rows < ACROSS || far * far <= 4 * UNIT ? let_go(of, b, held, &n, sign) : -1;
-        if (gone >= 0) {
-            edges &= ~(1u << gone);
-            slants &= ~(1u << gone);
-            shut |= 1u << gone;
-            left = gone;
-            continue;
-        }
-        keep_shares(b, sign);
-        for (int j = 0; j < ACROSS; j++) t[j] *= share;
-        const meeting m = limb_met(of, b, shut, t);
-        if (m.limb >= 0) edges |= 1u << m.limb;
-        if (m.slant) slants |= 1u << m.limb;
-        held = m.limb == left && m.part * far <= 64 * UNIT ? left : -1;
-        left = -1;
-        n = add(n, mul(turn_of(b, t), m.part));
-        n = mul(n, 1 / length(n));
-        if (m.limb >= 0 || !is_at_rest(b, t, far)) continue;
-        bent_at(of, n, edges, slants, sign, b);
-        roll(b, most, t);
-        take_shares(b);
-        add_kinks(of, b);
-        return limb_let_go(b, -1) < 0;
+    rolling s;
+    real t[ACROSS];
+    start_rolling(&s, of, n);
+    for (int i = 0; i < ROLLS && !(known && dot(s.n, *known) > CLOSE_BY); i++) {
+        bend(&s, b);
+        aim(&s, b, t);
+        const enum rolled to = roll_by(&s, b, t);
+        if (to != ROLLS_ON) return to == RESTS && come_to_rest(&s, b);
     }
     return 0;
 }

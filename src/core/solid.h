@@ -390,23 +390,48 @@ static int add_solid(bulk *b, const solid *k, const stand *s, int of_b)
 
 static inline unsigned edged_axes_of(const solid *k) { return k->kind == IS_BOX ? 7 : k->kind == IS_ELLIPSOID ? 0 : 4; }
 
-/* The same of any two, by a dip of the heights. */
+/* The heights of A - B in lengths of a frame by the doubt, that many to the caller's. 0: what they are made of is not
+ * known, or axes lie along one another. */
+static int know_heights(bulk *of, const couplet *k, real level)
+{
+    const stand a = {k->a.m, 1, level}, b = {k->b.m, 1, level};
+    of->limbs = 0;
+    of->middle = mul(k->c, -level);
+    if (are_aligned(&a, edged_axes_of(&k->a), &b, edged_axes_of(&k->b))) return 0;
+    return add_solid(of, &k->a, &a, 0) && add_solid(of, &k->b, &b, 1);
+}
+
+/* Whether the corner there shows them to be apart, or the point in the middle of both bodies', as it counts edges, is
+ * in both. */
+static int tell_in_dip(couplet *k, const bulk *of, const bent *at)
+{
+    vertex p;
+    look_along_way(k, mul(at->n, -1), &p.x, &p.y);
+    share_out(of, at, &p);
+    const vec middle = add(put_in_place(&k->a, p.x), add(put_in_place(&k->b, p.y), k->c));
+    return tell_there(k, mul(middle, (real)0.5));
+}
+
+/* The same of any two, on the way to a dip of the heights: as soon as they are below the doubt there, or seem to stay
+ * above it. */
 static APART int tell_by_dip(couplet *k)
 {
     bulk of;
+    rolling s;
     bent at;
-    vertex p;
-    const real level = leveler(k->doubt * (1 / GLANCE_DOUBT));
-    const stand a = {k->a.m, 1, level}, b = {k->b.m, 1, level};
-    of.limbs = 0;
-    of.middle = mul(k->c, -level);
-    if (are_aligned(&a, edged_axes_of(&k->a), &b, edged_axes_of(&k->b))) return 0;
-    if (!add_solid(&of, &k->a, &a, 0) || !add_solid(&of, &k->b, &b, 1)) return 0;
-    if (!find_least(&of, mul(k->c, 1 / length(k->c)), NULL, &at)) return 0;
-    look_along_way(k, mul(at.n, -1), &p.x, &p.y);
-    share_out(&of, &at, &p);
-    const vec middle = add(put_in_place(&k->a, p.x), add(put_in_place(&k->b, p.y), k->c));
-    return tell_there(k, mul(middle, (real)0.5));
+    real t[ACROSS];
+    const real level = leveler(k->doubt * (1 / GLANCE_DOUBT)), doubt = 2 * k->doubt * level;
+    if (!know_heights(&of, k, level)) return 0;
+    start_rolling(&s, &of, mul(k->c, 1 / length(k->c)));
+    for (int i = 0; i < ROLLS; i++) {
+        bend(&s, &at);
+        if (at.height + at.height_off < -doubt) return tell_in_dip(k, &of, &at);
+        aim(&s, &at, t);
+        if (-4 * change_along(&at, t) < at.height) return tell_in_dip(k, &of, &at);
+        const enum rolled to = roll_by(&s, &at, t);
+        if (to != ROLLS_ON) return to == RESTS && come_to_rest(&s, &at) && tell_in_dip(k, &of, &at);
+    }
+    return 0;
 }
 
 /* ---- more corners ---- */
