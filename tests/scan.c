@@ -21,9 +21,10 @@
 #endif
 
 #define MOST 150
+#define LONGEST 5000
 #define WIDEST 7 /* numbers from point to point */
 
-static real v[MOST * WIDEST];
+static real v[LONGEST * WIDEST];
 static uint64_t state_of_draws;
 
 static int below_any(int n) { return (int)(splitmix64(&state_of_draws) % (uint64_t)n); }
@@ -57,13 +58,18 @@ static vec any_direction(int kind)
     return d;
 }
 
-/* Two of the list far above the others, equal but for a rounding or two. */
+/* One of the list far above the others, so far aside; another is as high but for a rounding or two. */
+static void raise_one(const list *l, vec d, size_t at, real aside)
+{
+    real *x = v + at * l->step;
+    for (int i = 0; i < DIM; i++) x[i] = 64 * d.c[i] * (1 + (real)below_any(3) * 2 * UNIT);
+    x[0] -= aside * d.c[1];
+    x[1] += aside * d.c[0];
+}
+
 static void raise_two(const list *l, vec d)
 {
-    for (int k = 0; k < 2; k++) {
-        real *x = v + (size_t)below_any((int)l->count) * l->step;
-        for (int i = 0; i < DIM; i++) x[i] = 64 * d.c[i] * (1 + (real)below_any(3) * 2 * UNIT);
-    }
+    for (int k = 0; k < 2; k++) raise_one(l, d, (size_t)below_any((int)l->count), 0);
 }
 
 static size_t first_of_highest(const list *l, vec d)
@@ -73,6 +79,26 @@ static size_t first_of_highest(const list *l, vec d)
         if (dot(nth_of(l, k), d) > dot(nth_of(l, first), d)) first = k;
     }
     return first;
+}
+
+/* The highest once almost equals are told apart, told without any means of the library's but dot. */
+static size_t one_after_another(const list *l, vec d)
+{
+    const size_t first = first_of_highest(l, d);
+    const vec top = nth_of(l, first);
+    real highest = 0;
+    size_t best = first;
+    for (size_t k = 0; k < l->count; k++) {
+        if (!(dot(nth_of(l, k), d) >= dot(top, d) - 8 * UNIT * l->reach * spread(d))) continue;
+        const vec e = sub(nth_of(l, k), top);
+        const int is_told = dot(e, d) > 4 * UNIT * dot_size(e, d),
+                  is_slight = 4 * UNIT * dot_size(e, d) <= 2 * UNIT * l->reach * peak(d);
+        if (dot(e, d) > highest && (is_told || is_slight)) {
+            highest = dot(e, d);
+            best = k;
+        }
+    }
+    return best;
 }
 
 /* In runs, as many as there are; what is told of almost equals, and what in haste. */
@@ -111,7 +137,7 @@ static void whichever_way(void **state)
             l.reach = 128;
         }
         size_t best = farthest_of_few(&l, d, WARY), first = first_of_highest(&l, d);
-        assert_true(best < l.count);
+        assert_true(best == one_after_another(&l, d));
         assert_true(farthest_of_few(&l, d, CAREFUL) == best);
         check_runs(&l, d, best, first);
         for (size_t k = 0; k < l.count; k++) {
@@ -123,6 +149,43 @@ static void whichever_way(void **state)
         }
     }
     assert_true(ties > 20000);
+}
+
+/* A place in a list: among the first, among the last, of which some are looked at twice, or anywhere. */
+static size_t any_place(size_t n)
+{
+    const int few = n < 2 * EIGHT ? (int)n : 2 * EIGHT, kind = below_any(3);
+    if (kind == 0) return (size_t)below_any(few);
+    return kind == 1 ? n - 1 - (size_t)below_any(few) : (size_t)below_any((int)n);
+}
+
+static void check_long(size_t n, int rounds)
+{
+    const size_t step = DIM + (size_t)below_any(2) * (size_t)below_any(WIDEST - DIM + 1);
+    const list l = {v, n, step, 256};
+    for (int i = 0; i < rounds; i++) {
+        const vec d = any_direction(0);
+        draw_points(0, (int)n, (int)step);
+        for (int k = i % 4; k >= 0; k--) raise_one(&l, d, any_place(n), i % 3 ? 0 : 128 * any_real());
+        const size_t best = one_after_another(&l, d), first = first_of_highest(&l, d);
+        assert_true(farthest_of_few(&l, d, WARY) == best);
+        assert_true(farthest_among(&l, d, WARY) == best);
+        assert_true(farthest_among(&l, d, CAREFUL) == best);
+        assert_true(farthest_among(&l, d, HASTY) == (n < RUN ? best : first));
+        assert_true(farthest_among(&l, d, FIRST_SIGHT) == (n < RUN ? best : first));
+        if (n >= RUN) check_runs(&l, d, best, first);
+        v[any_place(n) * step] = (real)NAN;
+        assert_true(farthest_among(&l, d, WARY) == n);
+        assert_true(farthest_among(&l, d, FIRST_SIGHT) == n);
+    }
+}
+
+/* Almost equals anywhere in lists of any length, of one eight or several in a block; and one that is none. */
+static void wherever_they_are(void **state)
+{
+    (void)state;
+    for (size_t n = 1; n <= 700; n++) check_long(n, 24);
+    for (size_t n = 701; n <= LONGEST; n += 61) check_long(n, 12);
 }
 
 static void no_numbers(void **state)
@@ -166,6 +229,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whichever_way),
+        cmocka_unit_test(wherever_they_are),
         cmocka_unit_test(no_numbers),
         cmocka_unit_test(no_sum),
     };

@@ -41,29 +41,6 @@ HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
 {
     EACH(c[i] = _mm_loadh_pd(_mm_load_sd(x + i), x + step + i));
 }
-
-/* Whole numbers below 2^32. */
-typedef __m128d indices;
-
-static inline indices index_in_all(uint32_t n) { return _mm_castsi128_pd(_mm_set1_epi32((int)n)); }
-static inline indices next_indices(indices n)
-{
-    return _mm_castsi128_pd(_mm_add_epi32(_mm_castpd_si128(n), _mm_set1_epi32(1)));
-}
-static inline void part_indices(indices n, uint32_t r[LANES])
-{
-    uint32_t twice[4];
-    _mm_storeu_si128((__m128i *)(void *)twice, _mm_castpd_si128(n));
-    r[0] = twice[0];
-    r[1] = twice[2];
-}
-
-/* n where x > y, else m. */
-static inline indices where_larger(lanes x, lanes y, indices n, indices m)
-{
-    lanes mask = _mm_cmpgt_pd(x, y);
-    return _mm_or_pd(_mm_and_pd(mask, n), _mm_andnot_pd(mask, m));
-}
 #else
 #define LANES 4
 typedef __m128 lanes;
@@ -118,31 +95,10 @@ HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
     c[2] = _mm_movelh_ps(a, b);
 #endif
 }
-
-/* Whole numbers below 2^32. */
-typedef __m128 indices;
-
-static inline indices index_in_all(uint32_t n) { return _mm_castsi128_ps(_mm_set1_epi32((int)n)); }
-static inline indices next_indices(indices n)
-{
-    return _mm_castsi128_ps(_mm_add_epi32(_mm_castps_si128(n), _mm_set1_epi32(1)));
-}
-static inline void part_indices(indices n, uint32_t r[LANES])
-{
-    _mm_storeu_si128((__m128i *)(void *)r, _mm_castps_si128(n));
-}
-
-/* n where x > y, else m. */
-static inline indices where_larger(lanes x, lanes y, indices n, indices m)
-{
-    lanes mask = _mm_cmpgt_ps(x, y);
-    return _mm_or_ps(_mm_and_ps(mask, n), _mm_andnot_ps(mask, m));
-}
 #endif
 #else
 #define LANES 1
 typedef real lanes;
-typedef uint32_t indices;
 
 static inline lanes in_all(real x) { return x; }
 static inline lanes sums(lanes x, lanes y) { return x + y; }
@@ -171,10 +127,6 @@ HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
     (void)step;
     EACH(c[i] = x[i]);
 }
-static inline indices index_in_all(uint32_t n) { return n; }
-static inline indices next_indices(indices n) { return n + 1; }
-static inline void part_indices(indices n, uint32_t r[LANES]) { r[0] = n; }
-static inline indices where_larger(lanes x, lanes y, indices n, indices m) { return x > y ? n : m; }
 #endif
 
 /* ---- four at a time ---- */

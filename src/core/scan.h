@@ -62,27 +62,63 @@ static inline lanes highest_in_run(const real *x, size_t step, const ways *d, la
 static inline real margin_of(const list *l, vec d) { return 8 * UNIT * l->reach * spread(d); }
 
 /* A point that is higher than the best one, if there is any among those of almost its height: of points that lie close
- * together far from their origin, their differences tell. A rise of which rounding leaves even the sign open counts
- * where it can't be wrong by more than 2 units of the reach, which heights leave of the licence. */
+ * together far from their origin, their differences tell. */
+typedef struct tie {
+    vec top;
+    real highest, leave;
+    size_t best;
+} tie;
+
+static inline tie tie_of(const list *l, vec d, size_t best)
+{
+    return (tie){nth_of(l, best), 0, 2 * UNIT * l->reach * peak(d), best};
+}
+
+/* A rise of which rounding leaves even the sign open counts where it can't be wrong by more than 2 units of the reach,
+ * which heights leave of the licence. */
+static inline void look_for_rise(tie *t, const list *l, vec d, size_t i)
+{
+    const vec e = sub(nth_of(l, i), t->top);
+    const real rise = dot(e, d), doubt = 4 * UNIT * dot_size(e, d);
+    if (!(rise > t->highest) || !(rise > doubt || doubt <= t->leave)) return;
+    t->highest = rise;
+    t->best = i;
+}
+
 static APART size_t settle_tie(const list *l, vec d, size_t best, real almost)
 {
-    const size_t n = l->count, step = l->step;
-    const vec top = nth_of(l, best);
-    real highest = 0, leave = 2 * UNIT * l->reach * peak(d);
-    lanes all = in_all(0), least = in_all(almost);
-    ways way = ways_of(d);
-    for (size_t i = 0; i < n; i++) {
-        while (n >= MANY && i + RUN < n && !any_as_large(highest_in_run(l->v + i * step, step, &way, &all), least))
-            i += RUN;
-        vec x = nth_of(l, i);
-        if (!(dot(x, d) >= almost)) continue;
-        vec e = sub(x, top);
-        real rise = dot(e, d), doubt = 4 * UNIT * dot_size(e, d);
-        if (!(rise > highest) || !(rise > doubt || doubt <= leave)) continue;
-        highest = rise;
-        best = i;
+    tie t = tie_of(l, d, best);
+    for (size_t i = 0; i < l->count; i++) {
+        if (dot(nth_of(l, i), d) >= almost) look_for_rise(&t, l, d, i);
     }
-    return best;
+    return t.best;
+}
+
+/* The first of those bits; there is one. */
+static inline unsigned first_bit(unsigned set)
+{
+    unsigned at = 0;
+#if defined(__GNUC__) || defined(__clang__)
+    at = (unsigned)__builtin_ctz(set);
+#else
+    while (!(set >> at & 1)) at++;
+#endif
+    return at;
+}
+
+static inline int is_more_than_one(unsigned set) { return (set & (set - 1)) != 0; }
+
+/* Bit i of near: point i from there on is of almost that height. A point that is looked at twice changes nothing. */
+static inline void look_among(tie *t, const list *l, vec d, size_t from, unsigned near)
+{
+    for (; near; near &= near - 1) look_for_rise(t, l, d, from + first_bit(near));
+}
+
+static APART size_t settle_those(const list *l, vec d, size_t best, unsigned near)
+{
+    tie t = tie_of(l, d, best);
+    look_among(&t, l, d, 0, near);
+    return t.best;
 }
 
 /* The highest of the points so far, the first among equals, and the height of the next one. */
@@ -149,18 +185,6 @@ static inline real sum_of_lanes(lanes x)
     return sum;
 }
 
-/* The first of those bits; there is one. */
-static inline unsigned first_bit(unsigned set)
-{
-    unsigned at = 0;
-#if defined(__GNUC__) || defined(__clang__)
-    at = (unsigned)__builtin_ctz(set);
-#else
-    while (!(set >> at & 1)) at++;
-#endif
-    return at;
-}
-
 /* Bit i: point i of n is no lower than that. The last run is of the last ones, some of them once more. */
 HOT unsigned as_high_as(const real height[MANY], size_t n, lanes least)
 {
@@ -194,7 +218,7 @@ HOT size_t farthest_in_few_runs(const list *l, vec d, enum care care)
     if (tells_equals(care)) {
         const real almost = first_lane(most) - margin_of(l, d);
         const unsigned near = as_high_as(height, n, in_all(almost));
-        if (near & (near - 1)) return settle_tie(l, d, first_bit(as_high_as(height, n, most)), almost);
+        if (is_more_than_one(near)) return settle_those(l, d, first_bit(as_high_as(height, n, most)), near);
         if (near) return first_bit(near);
     }
     const unsigned at = as_high_as(height, n, most);
@@ -252,11 +276,26 @@ HOT lanes add_eight(const eight *e, lanes sum)
 /* Each of these sums is finite only if all that is in it is. */
 HOT int are_finite(lanes sum) { return holds_in_all(no_larger(products(sum, in_all(0)), in_all(0))); }
 
-/* The first of the highest of n, of which these bits tell, or in care whichever is. */
-HOT size_t choose_highest(const list *l, vec d, unsigned at, unsigned near, real almost, enum care care)
+static inline size_t later_eight(size_t i, size_t last) { return i < last ? i : last; }
+
+/* Bit i: point i of n is no lower than that. */
+HOT unsigned eights_as_large(const eight *e, size_t n, lanes least)
 {
-    if (tells_equals(care) && (near & (near - 1))) return settle_tie(l, d, first_bit(at), almost);
-    return first_bit(at | 1u << (l->count - 1));
+    unsigned at = 0;
+    for (size_t i = 0; i < n; i += EIGHT) at |= eight_as_large(e[i / EIGHT].high, least) << later_eight(i, n - EIGHT);
+    return at;
+}
+
+/* The first of the highest of less than MANY, or in care whichever is. Mostly none is almost as high. */
+HOT size_t choose_highest(const list *l, size_t n, vec d, const eight *e, lanes most, enum care care)
+{
+    unsigned near = 0;
+    if (tells_equals(care)) {
+        near = eights_as_large(e, n, in_all(first_lane(most) - margin_of(l, d)));
+        if (near && !is_more_than_one(near)) return first_bit(near);
+    }
+    const unsigned first = first_bit(eights_as_large(e, n, most) | 1u << (n - 1));
+    return near ? settle_those(l, d, first, near) : first;
 }
 
 HOT size_t farthest_of_eight(const list *l, size_t step, vec d, enum care care)
@@ -264,13 +303,8 @@ HOT size_t farthest_of_eight(const list *l, size_t step, vec d, enum care care)
     const ways way = ways_of(d);
     const eight e = look_at_eight(l->v, step, &way);
     if (is_of_strangers(care) && !are_finite(add_eight(&e, in_all(0))) && !are_numbers(l, d)) return EIGHT;
-    const lanes most = largest_in_all(highest_of_eight(&e));
-    const real almost = tells_equals(care) ? first_lane(most) - margin_of(l, d) : 0;
-    const unsigned near = tells_equals(care) ? eight_as_large(e.high, in_all(almost)) : 0;
-    return choose_highest(l, d, eight_as_large(e.high, most), near, almost, care);
+    return choose_highest(l, EIGHT, d, &e, largest_in_all(highest_of_eight(&e)), care);
 }
-
-static inline size_t later_eight(size_t i, size_t last) { return i < last ? i : last; }
 
 HOT size_t farthest_in_eights(const list *l, size_t step, vec d, enum care care)
 {
@@ -286,14 +320,7 @@ HOT size_t farthest_in_eights(const list *l, size_t step, vec d, enum care care)
         if (is_of_strangers(care)) total = add_eight(next, total);
     }
     if (is_of_strangers(care) && !are_finite(total) && !are_numbers(l, d)) return n;
-    most = largest_in_all(most);
-    const real almost = tells_equals(care) ? first_lane(most) - margin_of(l, d) : 0;
-    unsigned at = 0, near = 0;
-    for (size_t i = 0; i < n; i += EIGHT) {
-        at |= eight_as_large(e[i / EIGHT].high, most) << later_eight(i, last);
-        if (tells_equals(care)) near |= eight_as_large(e[i / EIGHT].high, in_all(almost)) << later_eight(i, last);
-    }
-    return choose_highest(l, d, at, near, almost, care);
+    return choose_highest(l, n, d, e, largest_in_all(most), care);
 }
 
 static APART size_t farthest_in_eights_apart(const list *l, vec d, enum care care)
@@ -307,72 +334,139 @@ HOT size_t farthest_of_some(const list *l, vec d, enum care care)
     return l->step == DIM ? farthest_in_eights(l, DIM, d, care) : farthest_in_eights_apart(l, d, care);
 }
 
-/* Of many, in each lane the highest so far, of the highest of each eight, and which eight that is of; and the next one.
- */
-typedef struct summits {
-    lanes highest, second;
-    indices at;
-} summits;
+/* Many are looked at in blocks of so many eights. Of each block in each lane the highest is kept; where one is almost
+ * the highest of all, the block is looked at once more. */
+#define LANES_OF_BLOCKS 64
+#define BLOCKS (LANES_OF_BLOCKS / LANES)
+#define BLOCKS_AT_ONCE (EIGHT / LANES)
 
-static inline summits see_run(summits s, lanes height, indices at)
+typedef struct blocks {
+    size_t eights, count;
+    lanes most, total, high[BLOCKS + BLOCKS_AT_ONCE - 1];
+} blocks;
+
+/* No more eights than make BLOCKS of them; the last block may have fewer. The total is of all heights. */
+HOT void look_at_blocks(blocks *b, const list *l, size_t step, const ways *way, size_t eights, enum care care)
 {
-    s.second = larger_ones(smaller_ones(height, s.highest), s.second);
-    s.at = where_larger(height, s.highest, at, s.at);
-    s.highest = larger_ones(height, s.highest);
-    return s;
-}
-
-/* The first eight that has one so high. */
-static inline size_t eight_of(const summits *all, lanes most)
-{
-    const unsigned here = (unsigned)any_as_large(all->highest, most);
-    uint32_t at[LANES], first = UINT32_MAX;
-    part_indices(all->at, at);
-    for (int k = 0; k < LANES; k++) {
-        const uint32_t next = at[k] | ((here >> k & 1) - 1);
-        first = next < first ? next : first;
-    }
-    return here ? first : 0;
-}
-
-static inline int is_more_than_one(unsigned set) { return (set & (set - 1)) != 0; }
-
-/* Whether another is almost as high as the highest, which is one of these eight: it may be one looked at twice. */
-static inline int has_rival(const summits *all, const eight *e, lanes almost)
-{
-    return any_as_large(all->second, almost) || is_more_than_one((unsigned)any_as_large(all->highest, almost)) ||
-           is_more_than_one(eight_as_large(e->high, almost));
-}
-
-/* As many as indices count. */
-#define MOST_POINTS (8 * (size_t)0x7fffffff)
-
-HOT size_t farthest_in_runs_of(const list *l, size_t step, vec d, enum care care)
-{
-    const size_t n = l->count, last = n - EIGHT;
-    const ways way = ways_of(d);
-    summits all = {in_all(-REAL_MAX), in_all(-REAL_MAX), index_in_all(0)};
-    lanes total = in_all(0);
-    indices at = index_in_all(0);
-    for (size_t i = 0; i < n; i += EIGHT, at = next_indices(at)) {
-        const eight e = look_at_eight(l->v + later_eight(i, last) * step, step, &way);
+    const real *x = l->v, *const last = x + (l->count - EIGHT) * step;
+    lanes most = in_all(-REAL_MAX), total = in_all(0), here = most;
+    size_t count = 0;
+    for (size_t left = eights;;) {
+        const eight e = look_at_eight(x, step, way);
         if (is_of_strangers(care)) total = add_eight(&e, total);
-        all = see_run(all, highest_of_eight(&e), at);
+        here = eights == 1 ? highest_of_eight(&e) : larger_ones(highest_of_eight(&e), here);
+        if (--left == 0 || x == last) {
+            b->high[count++] = here;
+            most = larger_ones(here, most);
+            if (x == last) break;
+            here = in_all(-REAL_MAX);
+            left = eights;
+        }
+        x += EIGHT * step;
+        x = x < last ? x : last;
     }
-    if (is_of_strangers(care) && !are_finite(total) && !are_numbers(l, d)) return n;
-    const lanes most = largest_in_all(all.highest);
-    const size_t from = later_eight(eight_of(&all, most) * EIGHT, last);
-    const eight e = look_at_eight(l->v + from * step, step, &way);
-    const size_t best = from + first_bit(eight_as_large(e.high, most) | 1u << (EIGHT - 1));
+    for (size_t k = 0; k < BLOCKS_AT_ONCE - 1; k++) b->high[count + k] = in_all((real)NAN);
+    b->eights = eights;
+    b->count = count;
+    b->most = most;
+    b->total = total;
+}
+
+/* A bit for each lane of each block: whether one there is as high as that. */
+HOT uint64_t blocks_as_large(const blocks *b, lanes least)
+{
+    uint64_t set = 0;
+    for (size_t k = 0; k < b->count; k += BLOCKS_AT_ONCE)
+        set |= (uint64_t)eight_as_large(b->high + k, least) << k * LANES;
+    return set;
+}
+
+/* The first of those blocks; there is one. */
+static inline size_t first_block(uint64_t set)
+{
+    size_t at = 0;
+#if defined(__GNUC__) || defined(__clang__)
+    at = (size_t)__builtin_ctzll(set);
+#else
+    while (!(set >> at & 1)) at++;
+#endif
+    return at / LANES;
+}
+
+/* Without the first of them, which is that. */
+static inline uint64_t later_blocks(uint64_t set, size_t block)
+{
+    const uint64_t till = ((uint64_t)2 << (block * LANES + LANES - 1)) - 1;
+    return set & ~till;
+}
+
+/* The first of the highest, where it takes a second look at a block. */
+static size_t first_of_blocks(const list *l, const ways *way, const blocks *b, lanes most)
+{
+    const uint64_t set = blocks_as_large(b, most);
+    const size_t from = set ? first_block(set) * b->eights : 0;
+    for (size_t k = from; k < from + b->eights; k++) {
+        const size_t i = later_eight(k * EIGHT, l->count - EIGHT);
+        const eight e = look_at_eight(l->v + i * l->step, l->step, way);
+        const unsigned at = eight_as_large(e.high, most);
+        if (at) return i + first_bit(at);
+    }
+    return EIGHT - 1;
+}
+
+/* That, and of almost equals the others are asked, too. */
+static APART size_t settle_blocks(const list *l, vec d, const blocks *b, enum care care)
+{
+    const ways way = ways_of(d);
+    const lanes most = largest_in_all(b->most), least = in_all(first_lane(most) - margin_of(l, d));
+    const size_t best = first_of_blocks(l, &way, b, most);
     if (!tells_equals(care)) return best;
-    const real almost = first_lane(most) - margin_of(l, d);
-    return has_rival(&all, &e, in_all(almost)) ? settle_tie(l, d, best, almost) : best;
+    tie t = tie_of(l, d, best);
+    uint64_t set = blocks_as_large(b, least);
+    while (set) {
+        const size_t block = first_block(set), from = block * b->eights;
+        for (size_t k = from; k < from + b->eights && k * EIGHT < l->count; k++) {
+            const size_t i = later_eight(k * EIGHT, l->count - EIGHT);
+            const eight e = look_at_eight(l->v + i * l->step, l->step, &way);
+            look_among(&t, l, d, i, eight_as_large(e.high, least));
+        }
+        set = later_blocks(set, block);
+    }
+    return t.best;
+}
+
+HOT size_t farthest_in_blocks(const list *l, size_t step, vec d, size_t eights, enum care care)
+{
+    const size_t n = l->count;
+    const ways way = ways_of(d);
+    blocks b;
+    look_at_blocks(&b, l, step, &way, eights, care);
+    if (is_of_strangers(care) && !are_finite(b.total) && !are_numbers(l, d)) return n;
+    const lanes most = largest_in_all(b.most);
+    const lanes least = tells_equals(care) ? in_all(first_lane(most) - margin_of(l, d)) : most;
+    const uint64_t set = blocks_as_large(&b, least);
+    if (eights > 1 || !set) return settle_blocks(l, d, &b, care);
+    const size_t block = first_block(set), from = later_eight(block * EIGHT, n - EIGHT);
+    if (tells_equals(care) && later_blocks(set, block)) return settle_blocks(l, d, &b, care);
+    const eight e = look_at_eight(l->v + from * step, step, &way);
+    const unsigned near = eight_as_large(e.high, least);
+    if (tells_equals(care) && is_more_than_one(near)) return settle_blocks(l, d, &b, care);
+    return from + first_bit(near | 1u << (EIGHT - 1));
+}
+
+static inline size_t eights_of_block(const list *l) { return (l->count - 1) / (EIGHT * BLOCKS) + 1; }
+
+static APART size_t farthest_of_long(const list *l, vec d, enum care care)
+{
+    const size_t eights = eights_of_block(l);
+    return l->step == DIM ? farthest_in_blocks(l, DIM, d, eights, care)
+                          : farthest_in_blocks(l, l->step, d, eights, care);
 }
 
 HOT size_t farthest_in_runs(const list *l, vec d, enum care care)
 {
-    if (l->count > MOST_POINTS) return farthest_of_few(l, d, care);
-    return l->step == DIM ? farthest_in_runs_of(l, DIM, d, care) : farthest_in_runs_of(l, l->step, d, care);
+    if (l->count > EIGHT * BLOCKS) return farthest_of_long(l, d, care);
+    return l->step == DIM ? farthest_in_blocks(l, DIM, d, 1, care) : farthest_in_blocks(l, l->step, d, 1, care);
 }
 
 static APART size_t farthest_of_many(const list *l, vec d) { return farthest_in_runs(l, d, WARY); }
