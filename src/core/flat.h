@@ -342,16 +342,13 @@ HOT int is_there(const flat_body *s, unsigned at, const real was[DIM])
     return (has_more_than_run(s) || at < RUN) && dsame(corner_in_flat(s, at), dload(was));
 }
 
-/* From the corners of the last query, if they stand where they did. */
+/* From the corners of the last query, as far as they stand where they did. */
 HOT void recall_flat(const flat *f, dfront *k, const cache *from)
 {
     uint32_t hint = from->reserved;
     for (uint32_t i = 0; i < from->count; i++, hint >>= 8) {
         const unsigned of_a = at_in_a(hint), of_b = at_in_b(hint);
-        if (!is_there(&f->a, of_a, from->a[i]) || !is_there(&f->b, of_b, from->b[i])) {
-            k->n = 0;
-            return;
-        }
+        if (!is_there(&f->a, of_a, from->a[i]) || !is_there(&f->b, of_b, from->b[i])) return;
         k->last = dspot_of(f, of_a, of_b);
         turn_flat(k);
     }
@@ -478,8 +475,8 @@ HOT double turn_at(dvec p, dvec q, double *square)
     return turn;
 }
 
-/* They overlap: the corner asked for last and the edge hold the origin. 0: with too little room, or too narrowly for a
- * point of both. */
+/* They overlap: the corner asked for last and the edge hold the origin. 0: with less room than is in doubt, or too
+ * narrowly for a point of both. */
 HOT int tell_flat_held(const flat *f, const dfront *k, result *r)
 {
     const dspot at[3] = {k->p, k->q, k->last};
@@ -489,7 +486,6 @@ HOT int tell_flat_held(const flat *f, const dfront *k, result *r)
     for (int i = 0; i < 3; i++) turn[i] = turn_at(at[(i + 1) % 3].w, at[(i + 2) % 3].w, &square);
     if (!((turn[0] > 0 && turn[1] > 0 && turn[2] > 0) || (turn[0] < 0 && turn[1] < 0 && turn[2] < 0))) return 0;
     const double inside = droot(square), blur = 2 * f->blur + f->radius * 0x1p-51;
-    if (!(inside > 2 * blur)) return 0;
     s.per = 1 / dlength(k->way);
     s.a = dboth(0);
     for (int i = 0; i < 3; i++) {
