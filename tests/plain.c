@@ -616,11 +616,50 @@ static real distance_of(const real *point, const shape *s)
     return r.lower;
 }
 
+/* How far apart the hulls are along n, in their exact places. */
+static quad apart_along(const quad n[DIM])
+{
+    quad most[2] = {0, 0}, l = 0;
+    for (int k = 0; k < 2; k++) {
+        const list all = list_of_cloud(&hulls[k]);
+        for (size_t j = 0; j < all.count; j++) {
+            const real *x = all.v + all.step * j;
+            quad h = 0;
+            for (int i = 0; i < DIM; i++) {
+                quad at = (quad)x[i];
+                if (shapes[k].pose) {
+                    at = (quad)poses[k].p[i];
+                    for (int m = 0; m < DIM; m++) at += (quad)poses[k].m[DIM * i + m] * (quad)x[m];
+                }
+                h += k ? -n[i] * at : n[i] * at;
+            }
+            if (j == 0 || h > most[k]) most[k] = h;
+        }
+    }
+    for (int i = 0; i < DIM; i++) l += n[i] * n[i];
+    return -(most[0] + most[1]) / quad_sqrt(l);
+}
+
+/* The normal shows lower, to its own rounding. Where it is that of the line of centres, that line itself does, to none:
+ * that is 1 then. */
+static int check_lower(const result *r, real size)
+{
+    quad n[DIM], c[DIM];
+    for (int i = 0; i < DIM; i++) {
+        n[i] = (quad)r->normal[i];
+        c[i] = (shapes[1].pose ? (quad)poses[1].p[i] : 0) - (shapes[0].pose ? (quad)poses[0].p[i] : 0);
+    }
+    assert_true((quad)r->lower <= apart_along(n) + (quad)(64 * UNIT * size));
+    if (r->steps != (r->lower > 0 ? 1 : 3)) return 0;
+    assert_true((quad)r->lower <= apart_along(c));
+    return 1;
+}
+
 /* Two hulls are told at the door what they are told behind it, to the bit; and that is so. */
 static void hulls_are_told_at_the_door(void **state)
 {
     const options steps = {.size = sizeof steps, .max_steps = 255};
-    long apart = 0, deep = 0, by_three = 0;
+    long apart = 0, deep = 0, by_three = 0, dug = 0, along_centres = 0;
     (void)state;
     state_of_draws = 17;
     for (int k = 0; k < PAIRS / 4; k++) {
@@ -635,13 +674,16 @@ static void hulls_are_told_at_the_door(void **state)
         assert_true(pub(penetration)(&shapes[0], &shapes[1], NULL, &p) >= 0);
         assert_true(told.lower <= p.upper && p.lower <= told.upper);
         apart += told.lower > 0;
+        if (told.lower > 0 || told.upper < 0) along_centres += check_lower(&told, size);
         if (!(told.upper < 0)) continue;
         deep++;
         by_three += told.steps == 3;
+        dug += told.steps <= 1 + DEEPEST;
         for (int i = 0; i < 2; i++) assert_true(distance_of(told.point_a, &shapes[i]) <= 64 * UNIT * size);
         assert_memory_equal(told.point_a, told.point_b, sizeof told.point_a);
     }
-    assert_true(apart > 500 && deep > 3000 && 2 * by_three > deep);
+    assert_true(apart > 500 && deep > 3000 && 2 * by_three > deep && 5 * dug > 4 * deep);
+    assert_true(along_centres > deep / 2);
 }
 #endif
 
