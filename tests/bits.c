@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x3d6914fd0fcd4b2d, 0x17617ffc100ec3f5, 0x53fb499d4dc23d4f};
+static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0xc0732f1599ab45f5};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x0fcd8ea260fb7498, 0xd9581a34d8b181cd, 0x7d0390be67f9c2ac};
+static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0xbb35b8b4a474ea08};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x05e3714cf4435664, 0x01a5054e1f1ac951, 0xc9af129d86373665};
+static const uint64_t known[3] = {0x3b3f2227417b8154, 0xb6aa406aebdae047, 0x58b236e84850818c};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x7e8ea9f486835c7c, 0xc988bdea89acf3f8, 0x228e6f16a364cb41};
+static const uint64_t known[3] = {0x191693f2086c4e56, 0x19d20a8cf1dc7c39, 0x4ed7b48afe629043};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -183,22 +183,22 @@ static inline int ask_for(difference *d, vec v, int hasty, vertex *p)
 /* A point or a segment, which has no inside. */
 static inline int is_thin(const body *k) { return k->asked != AS_BOX && k->list.count < 3; }
 
-/* Of a long list some corners do at first: FEW, or up to four times as many. */
-#define FEW 16
-static inline int is_long(const body *k) { return k->asked == AS_LIST && k->list.count >= 4 * FEW; }
+/* Of a long list some corners do for first steps; of a shorter one all take hardly longer. */
+#define LONG 512
+static inline int is_long(const body *k) { return k->asked == AS_LIST && k->list.count >= LONG; }
 
-/* That is one in so many, a power of 4; 1: the list is short. */
-static size_t share_of(const body *k)
+/* One corner in so many, a power of 4: so few, or up to four times as many. 1: of a list as short as that all. */
+static size_t share_of(const body *k, size_t few)
 {
     size_t n = 1;
-    while (is_long(k) && k->list.count / n >= 4 * FEW) n *= 4;
+    while (k->asked == AS_LIST && k->list.count / n >= 4 * few) n *= 4;
     return n;
 }
 
 /* One corner in n of a list is left, or more where these would be too few. */
-static void thin_out(body *k, size_t n)
+static void thin_out(body *k, size_t n, size_t few)
 {
-    size_t share = share_of(k);
+    size_t share = share_of(k, few);
     if (n > share) n = share;
     k->list.count = (k->list.count + n - 1) / n;
     k->list.step *= n;

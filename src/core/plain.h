@@ -78,15 +78,18 @@ static int come_near(search *q, int max_steps)
     return !is_repeated(q) && dot(q->v, spare(&q->s)->w) < q->vv / 2 && step_plainly(q);
 }
 
+/* So few. */
+#define FEW 64
+
 /* Walks among few corners of long lists, then among more of them, while that brings v much nearer. It tells nothing of
  * the corners left out, so no bound comes of it; those taken in are good. */
 static APART void approach(search *q, const goal *g)
 {
     list a = q->d.a.list, b = q->d.b.list;
-    size_t in_a = share_of(&q->d.a), in_b = share_of(&q->d.b);
+    size_t in_a = share_of(&q->d.a, FEW), in_b = share_of(&q->d.b, FEW);
     for (size_t n = in_a > in_b ? in_a : in_b; n > 1 && q->s.n <= DIM; n /= 4) {
-        thin_out(&q->d.a, n);
-        thin_out(&q->d.b, n);
+        thin_out(&q->d.a, n, FEW);
+        thin_out(&q->d.b, n, FEW);
         while (q->s.n <= DIM && come_near(q, g->max_steps)) continue;
         q->repeated = 0;
         q->d.a.list = a;

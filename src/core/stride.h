@@ -51,7 +51,8 @@ static inline void bring_to_size(search *q)
     q->s.slot[0].w = mul(q->s.slot[0].w, d->scale);
 }
 
-/* One in so many of long lists' corners is looked at; of all bounds can be told. */
+/* One in so many of the lists' corners is looked at, SOME at least; of all bounds can be told. */
+#define SOME 16
 typedef struct portion {
     list a, b; /* all of them */
     size_t n;
@@ -63,13 +64,13 @@ static inline void look_at_portion(difference *d, portion *k, size_t n)
     d->a.list = k->a;
     d->b.list = k->b;
     if (n == 1) return;
-    thin_out(&d->a, n);
-    thin_out(&d->b, n);
+    thin_out(&d->a, n, SOME);
+    thin_out(&d->b, n, SOME);
 }
 
 static inline portion first_portion(const difference *d)
 {
-    const size_t of_a = share_of(&d->a), of_b = share_of(&d->b);
+    const size_t of_a = share_of(&d->a, SOME), of_b = share_of(&d->b, SOME);
     return (portion){d->a.list, d->b.list, of_a > of_b ? of_a : of_b};
 }
 
@@ -400,6 +401,7 @@ static enum glanced dig_anywhere(search *q, int of_all, int max_steps, const sha
 static enum glanced stride(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
     portion k = first_portion(&q->d);
+    const int take_all = !is_long_way(&q->d);
     stand_on_first(q);
     if (k.n > 1) {
         const evidence first = {.height = dot(q->way, q->v)};
@@ -407,6 +409,7 @@ static enum glanced stride(search *q, int max_steps, const shape *a, const shape
         look_at_portion(&q->d, &k, k.n);
     }
     enum glanced seen = dig_anywhere(q, k.n == 1, max_steps, a, b, r);
+    if (take_all) look_at_portion(&q->d, &k, 1);
     if (seen == IN_VAIN) seen = stride_among(q, &k, max_steps, a, b, r);
     look_at_portion(&q->d, &k, 1);
     return seen;
