@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0xc0732f1599ab45f5};
+static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0x7eeda92476970bb9};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0xbb35b8b4a474ea08};
+static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0xc170bbe96ada2764};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x3b3f2227417b8154, 0xb6aa406aebdae047, 0x58b236e84850818c};
+static const uint64_t known[3] = {0x3b3f2227417b8154, 0xb6aa406aebdae047, 0xc23527a5f22b825a};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x191693f2086c4e56, 0x19d20a8cf1dc7c39, 0x4ed7b48afe629043};
+static const uint64_t known[3] = {0x191693f2086c4e56, 0x19d20a8cf1dc7c39, 0xa736d507f8c71c3f};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -291,12 +291,17 @@ static int stand_in_dip(depth *d, real weight[DIM + 1], enum end *end)
     return 0;
 }
 
-/* The bounds as they are now, and whether what is settled is proven. */
-static void prove(depth *d, real *upper)
+/* The bounds as they are now, and whether what is settled is proven. 0: the surface proves none from above. */
+static int prove(depth *d, real *upper)
 {
     int proven = bound(d, upper);
     d->settled &= proven || (d->flush && d->q->met);
+    return proven;
 }
+
+/* Of known corners a bracket that the surface does not close is as wide as the depth, and so is settled without
+ * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
+#define MOST_OPEN (4 * UNIT)
 
 /* The cores meet, or nearly so: how deep. Where the difference is flat to rounding, the search's points, which are one
  * to rounding, are the contact. What curvature proves is worth its while where all digits are asked for, and only there
@@ -321,8 +326,8 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (end == FAULT) return end;
     if (d->floor && d->floor->rough == ROUGH) sharpen_facet(&d->p, d->floor);
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
-    prove(d, upper);
-    if (g->tight && !d->settled && d->floor && d->q->steps < g->max_steps) {
+    const int open = !prove(d, upper) && g->exact && end == STILL && *upper - d->q->lower > MOST_OPEN;
+    if ((g->tight || open) && !d->settled && d->floor && d->q->steps < g->max_steps) {
         settle_anew(d, &end);
         prove(d, upper);
     }

@@ -55,6 +55,10 @@ static inline int is_fair(const zonotope *z, int box_at)
     return fair && reach > UNIT;
 }
 
+/* The least of all numbers no power of two brings to size 1; what is reckoned to twice the digits takes it to be. */
+#define SMALLEST_FAR ((real)0.125)
+
+/* 0: as above, or so small are both. */
 static inline int take_boxes(zonotope *z, const difference *d)
 {
     z->c = d->c;
@@ -63,7 +67,7 @@ static inline int take_boxes(zonotope *z, const difference *d)
     take_axes(z, 0, &d->a, level_of_map(&d->a));
     take_axes(z, 1, &d->b, level_of_map(&d->b));
     for (int k = 0; k < AXES; k++) z->far += z->e[k] * ((z->uu[k] + 1) / 2);
-    return is_fair(z, 0) & is_fair(z, 1);
+    return z->far > SMALLEST_FAR && is_fair(z, 0) && is_fair(z, 1);
 }
 
 /* ---- the facets, in plain numbers ---- */
