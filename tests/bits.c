@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0x7eeda92476970bb9};
+static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0x302e4bc3ce40ea1b};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0xc170bbe96ada2764};
+static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0x8a4dea949b440a8d};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x3b3f2227417b8154, 0xb6aa406aebdae047, 0xc23527a5f22b825a};
+static const uint64_t known[3] = {0x3fedbf130f63baab, 0xba09590902f3f482, 0x8b5c732c7464e1d6};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x191693f2086c4e56, 0x19d20a8cf1dc7c39, 0xa736d507f8c71c3f};
+static const uint64_t known[3] = {0x84445ba9f7b9a405, 0x19d20a8cf1dc7c39, 0x65e46cb382482268};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

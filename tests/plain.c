@@ -84,12 +84,11 @@ static vec draw_point(const box *b, real grain, vec *low)
     return x;
 }
 
-static closest draw_closest(void)
+static spots draw_spots(void)
 {
-    closest p;
-    p.x = draw_point(&boxes[0], q.d.a.grain, &p.x_low);
-    p.y = draw_point(&boxes[1], q.d.b.grain, &p.y_low);
-    p.w = sub(place(&q.d.a, mul(p.x, 1 / q.d.a.grain)), add(place(&q.d.b, mul(p.y, 1 / q.d.b.grain)), q.d.c));
+    vec low_a, low_b, x = draw_point(&boxes[0], q.d.a.grain, &low_a), y = draw_point(&boxes[1], q.d.b.grain, &low_b);
+    spots p = spots_at(&q.d, &q.d.maps, duos_of(x, y));
+    p.low = duos_of(low_a, low_b);
     return p;
 }
 
@@ -120,13 +119,14 @@ static void what_rounding_took(void **state)
     (void)state;
     state_of_draws = 1;
     for (int k = 0; k < PAIRS; k++) {
-        closest p;
+        spots p;
         vec low;
         assert_true(open_pair());
-        p = draw_closest();
-        low = lost_of_pair(&q.d, &p);
+        p = draw_spots();
+        low = lost_of_spots(&q.d, &q.d.maps, &p);
         for (int i = 0; i < DIM; i++) {
-            quad truth = position(&shapes[0], p.x, p.x_low, i) - position(&shapes[1], p.y, p.y_low, i) - offset_of(i);
+            quad truth = position(&shapes[0], vec_of_a(p.x), vec_of_a(p.low), i) -
+                         position(&shapes[1], vec_of_b(p.x), vec_of_b(p.low), i) - offset_of(i);
             quad error = quad_abs((quad)p.w.c[i] + (quad)low.c[i] - truth);
             worst = fmax(worst, (double)(error / most));
         }
@@ -149,7 +149,7 @@ static void the_length(void **state)
             low.c[i] = any_real(-1, 1) * 4 * UNIT;
             square += ((quad)w.c[i] + (quad)low.c[i]) * ((quad)w.c[i] + (quad)low.c[i]);
         }
-        l = length_to_twice(w, low);
+        l = length_to_twice(w, length(w), low);
         error = quad_abs((quad)l.high + (quad)l.low - quad_sqrt(square));
         worst = fmax(worst, (double)(error / ((quad)UNIT * (quad)UNIT)));
     }
@@ -234,7 +234,7 @@ static void the_pair_is_v(void **state)
     (void)state;
     state_of_draws = 2;
     for (int k = 0; k < PAIRS; k++) {
-        closest p;
+        spots p;
         real upper;
         assert_true(open_pair());
         for (int i = 0; i < DIM; i++) {

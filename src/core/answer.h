@@ -60,6 +60,7 @@ static void bracket(result *r, const difference *d, real lower, real upper, cons
 /* How far apart, the radii taken off what the cores are apart, which is known to twice the digits: rounded once. */
 HOT real gap_of(const difference *d, twin apart, const shape *a, const shape *b)
 {
+    if (a->radius + b->radius == 0) return (apart.high + apart.low) * d->unscale;
     const twin radii = sum_of(a->radius * d->scale, b->radius * d->scale), gap = sum_of(apart.high, -radii.high);
     return (gap.high + (gap.low + (apart.low - radii.low))) * d->unscale;
 }
@@ -76,12 +77,6 @@ HOT vec moved(const pose *o, vec x, real down, real level)
 {
     x = mul(x, down);
     return o ? add(x, mul(load(o->p), level)) : x;
-}
-
-/* The same of the body's point, x times its grain. */
-HOT vec in_world(const body *k, const pose *o, vec x, real down, real level)
-{
-    return moved(o, mapped(k, x), down, level);
 }
 
 static inline real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
@@ -117,15 +112,21 @@ static APART void place_points(result *r, const search *q, vec x, vec y, vec way
     move_points(r, &q->d, q->normal, mapped(&q->d.a, x), mapped(&q->d.b, y), way, a, b, deep);
 }
 
-/* The same of sharp bodies apart, of plain sizes in plain places, as a rule. */
-HOT void place_pair(result *r, const search *q, vec x, vec y, vec way, const shape *a, const shape *b)
+/* The same of points from the bodies' positions. */
+static APART void place_at(result *r, const search *q, vec at_a, vec at_b, vec way, const shape *a, const shape *b)
+{
+    move_points(r, &q->d, q->normal, at_a, at_b, way, a, b, 0);
+}
+
+/* And of sharp bodies apart, of plain sizes in plain places, as a rule. */
+HOT void place_pair(result *r, const search *q, vec at_a, vec at_b, vec way, const shape *a, const shape *b)
 {
     if (q->d.wild || a->radius + b->radius != 0 || !(r->upper > 0) || !(far_out(a) < PLAIN && far_out(b) < PLAIN)) {
-        place_points(r, q, x, y, way, a, b, 0);
+        place_at(r, q, at_a, at_b, way, a, b);
         return;
     }
-    store(r->point_a, in_world(&q->d.a, a->pose, x, q->d.unscale, 1));
-    store(r->point_b, in_world(&q->d.b, b->pose, y, q->d.unscale, 1));
+    store(r->point_a, moved(a->pose, at_a, q->d.unscale, 1));
+    store(r->point_b, moved(b->pose, at_b, q->d.unscale, 1));
 }
 
 /* Those that the weights single out. */

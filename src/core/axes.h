@@ -24,13 +24,6 @@ typedef struct gauge {
     int framed;       /* in the frame; else in the caller's lengths, of turned boxes only */
 } gauge;
 
-/* The map of a body that is not turned. */
-#if DIM == 2
-static const real unturned[DIM * DIM] = {1, 0, 0, 1};
-#else
-static const real unturned[DIM * DIM] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-#endif
-
 static inline vec axis_of(const gauge *k, int at)
 {
     vec u;
@@ -146,13 +139,13 @@ static inline real room_at(vec x, vec e)
     return least;
 }
 
-/* The body's point x, times its grain, is that of both. */
-static inline void place_common(result *r, const search *q, const body *k, const shape *s, vec x)
+/* The body's point, from its position, is that of both. */
+static inline void place_common(result *r, const difference *d, const shape *s, vec at)
 {
     const real far = far_out(s);
-    const int plain = !q->d.wild && far < PLAIN;
-    const real level = plain ? 1 : level_of(&q->d, 0, far);
-    vec p = in_world(k, s->pose, x, level * q->d.unscale, level);
+    const int plain = !d->wild && far < PLAIN;
+    const real level = plain ? 1 : level_of(d, 0, far);
+    vec p = moved(s->pose, at, level * d->unscale, level);
     if (!plain) p = in_range(mul(p, 1 / level));
     store(r->point_a, p);
     store(r->point_b, p);
@@ -174,8 +167,10 @@ static APART int is_one_point(search *q, int framed, vec x, vec y, const shape *
 {
     simplex s;
     if (!framed) {
-        q->d.a.norm = q->d.a.posed ? stretch(q->d.a.m) : 1;
-        q->d.b.norm = q->d.b.posed ? stretch(q->d.b.m) : 1;
+        const duo_map maps = duo_map_at(map_of(&q->d.a), map_of(&q->d.b));
+        const duo norms = duo_stretch(&maps);
+        q->d.a.norm = of_a(norms);
+        q->d.b.norm = of_b(norms);
     }
     const real power = 1 / leveler(q->d.doubt / (GLANCE_DOUBT / 2)); /* above half that root times 2 */
     s.n = 1;
@@ -205,7 +200,7 @@ static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, 
     result told;
     const difference *d = &q->d;
     EACH(x.c[i] *= k->unit[0].c[i]; y.c[i] *= k->unit[1].c[i]);
-    const vec w = corner_at(d, x, y);
+    const vec at_a = mapped(&d->a, x), at_b = mapped(&d->b, y), w = sub(at_a, add(at_b, d->c));
     vec u[DIM];
     EACH(u[i] = axis_of(k, DIM * in_b + i));
     const real deep = room > 0 ? room * (1 - skew_among(u, k->off)) - spread(w) - d->doubt : 0;
@@ -216,8 +211,8 @@ static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, 
     if (one) told.upper = smaller(told.upper, 0); /* also where it was rounded on the way out */
     else if (!(told.upper < 0)) return 0;
     told.value = told.upper;
-    if (in_b) place_common(&told, q, &d->a, a, x);
-    else place_common(&told, q, &d->b, b, y);
+    if (in_b) place_common(&told, d, a, at_a);
+    else place_common(&told, d, b, at_b);
     store(told.normal, q->normal);
     told.steps = q->steps + 1;
     told.supports = d->calls;
@@ -354,7 +349,7 @@ HOT int try_along(search *q, vec l, int max_steps, const shape *a, const shape *
     evidence e = corner_shown(&q->d, l, &p);
     p.w = e.w;
     q->steps++;
-    if (tell_evidence(q, &e, l, &p, a, b, r)) return 1;
+    if (tell_evidence(q, &e, l, a, b, r)) return 1;
     q->v = l;
     q->glanced = AIMED;
     q->s.slot[0] = p; /* the spare one */
@@ -454,7 +449,7 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
     p->y = corner_of_box(of_b, s);
     evidence e = corner_shown(d, v, p);
     p->w = e.w;
-    return tell_evidence(q, &e, v, p, a, b, r) ? TELLING : IN_VAIN;
+    return tell_evidence(q, &e, v, a, b, r) ? TELLING : IN_VAIN;
 }
 
 static APART int tell_by_axes_in_frame(search *q, int max_steps, const shape *a, const shape *b, result *r)

@@ -106,6 +106,13 @@ HOT duos duos_both(vec v)
     return r;
 }
 
+HOT duos duos_of(vec a, vec b)
+{
+    duos r;
+    EACH(r.c[i] = duo_of(a.c[i], b.c[i]));
+    return r;
+}
+
 HOT duos duos_at(const real *a, const real *b)
 {
     duos r;
@@ -169,6 +176,29 @@ HOT duos duos_mapped(const duo_map *m, duos x)
 {
     duos r;
     EACH(r.c[i] = duos_dot(row_of_map(m, i), x));
+    return r;
+}
+
+/* The transpose, as pull has it. */
+HOT duos duos_pulled(const duo_map *m, duos x)
+{
+    duos r = duos_mul(row_of_map(m, 0), x.c[0]);
+    REST(r = duos_add(r, duos_mul(row_of_map(m, i), x.c[i])));
+    return r;
+}
+
+/* As stretch has it. */
+HOT duo duo_stretch(const duo_map *m)
+{
+    duo r = duo_both(0);
+    for (int i = 0; i < DIM; i++) {
+        duo row = duo_size(m->c[DIM * i]), column = duo_size(m->c[i]);
+        for (int j = 1; j < DIM; j++) {
+            row = duo_add(row, duo_size(m->c[DIM * i + j]));
+            column = duo_add(column, duo_size(m->c[DIM * j + i]));
+        }
+        r = duo_larger(row, duo_larger(column, r));
+    }
     return r;
 }
 

@@ -24,6 +24,26 @@ static inline real upper_half(real a)
     return t - (t - a);
 }
 
+/* The upper digits of x, which is within that size, a power of two: whole multiples of 2^-GRID of it. A sum of DIM
+ * products of such multiples, each row of a map within its size, is exact. */
+#define GRID (MANTISSA / 2)
+#define GRID_OFF ((real)((bits)3 << (MANTISSA - GRID - 1)))
+static inline real upper_digits(real x, real size)
+{
+    const real big = size * GRID_OFF;
+    return (x + big) - big;
+}
+
+/* A power of two above x. */
+static inline real above(real x)
+{
+    bits e;
+    memcpy(&e, &x, sizeof e);
+    e = ((e >> MANTISSA) + 1) << MANTISSA;
+    memcpy(&x, &e, sizeof x);
+    return x;
+}
+
 typedef struct halves {
     real upper, lower;
 } halves;

@@ -150,16 +150,16 @@ static inline int is_beside(const body *k, vec corner, vec x, unsigned free)
 
 /* The corner in the spare slot, sought along l, lies lower than the pair of points by more than the roundings of
  * either. */
-static int is_beneath(const search *q, vec l, const closest *p, vec low)
+static int is_beneath(const search *q, vec l, const spots *p, vec low)
 {
-    const closest c = last_of(q);
-    const vec way = add(sub(p->w, c.w), sub(low, lost_of_pair(&q->d, &c)));
+    const spots c = last_spots(q);
+    const vec way = add(sub(p->w, c.w), sub(low, lost_of_spots(&q->d, &q->d.maps, &c)));
     return dot(l, way) > UNIT * spread(l);
 }
 
 /* What is seen between x and y: the pair, the way without rounding, and along which axes the points are free. */
 typedef struct prospect {
-    closest p;
+    spots p;
     vec l;
     unsigned free_a, free_b;
 } prospect;
@@ -191,7 +191,7 @@ static inline int look_between(const difference *d, const gauge *k, vec x, vec y
         x = put_on_sides(&d->a, x, s->free_a);
         y = put_on_sides(&d->b, y, s->free_b);
     }
-    s->p = (closest){.x = x, .x_low = axis(0, 0), .y = y, .y_low = axis(0, 0), .w = corner_at(d, x, y)};
+    s->p = spots_at(d, &d->maps, duos_of(x, y));
     s->l = way_between(k, s->p.w, s->free_a, s->free_b);
     return is_along(s->l, s->p.w);
 }
@@ -252,7 +252,7 @@ static int tell_nearest(search *q, const gauge *k, vec x, vec y, const shape *a,
         square_up(k, s.p.w, &x, &y);
         if (!look_between(d, k, x, y, &s)) return 0;
     }
-    const real upper = length(s.p.w) * (1 + 8 * UNIT) + d->doubt;
+    const real far = length(s.p.w), upper = far * (1 + 8 * UNIT) + d->doubt;
     if (!(peak(s.l) > 0) || steps >= g->max_steps || !ask_on(d, s.l, last)) return 0;
     q->v = s.l;
     q->steps = steps;
@@ -261,9 +261,9 @@ static int tell_nearest(search *q, const gauge *k, vec x, vec y, const shape *a,
     if (!(q->lower > g->radius + 32 * d->doubt + 16 * UNIT * g->radius) || !(upper - q->lower <= 4 * d->doubt))
         return 0;
     know_offset(d, a, b);
-    const vec low = lost_of_pair(d, &s.p);
+    const vec low = lost_of_spots(d, &d->maps, &s.p);
     if (!are_nearest(q, x, y, &s, low)) return 0;
-    spell_distance(q, a, b, upper, &s.p, low, r);
+    spell_distance(q, a, b, far, upper, &s.p, low, r);
     r->steps = q->steps + 1;
     return 1;
 }

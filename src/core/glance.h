@@ -98,16 +98,14 @@ HOT void spell_sharp(const search *q, const evidence *e, vec v, real unscale, co
 }
 
 /* Of any. 0: the radii meet, and nothing is changed. */
-static int spell_evidence(search *q, const evidence *e, vec v, const vertex *p, const shape *a, const shape *b,
-                          result *r)
+static int spell_evidence(search *q, const evidence *e, vec v, const shape *a, const shape *b, result *r)
 {
-    const closest pair = {.x = mul(p->x, q->d.a.grain), .y = mul(p->y, q->d.b.grain), .w = e->w};
     const real lower = q->lower;
     const vec normal = q->normal;
     result told;
     q->lower = e->lower;
     EACH(q->normal.c[i] = 0 - v.c[i] / e->l);
-    spell(q, a, b, e->upper, &pair, &told);
+    spell(q, a, b, e->upper, e->a, e->b, e->w, &told);
     told.value = told.lower;
     told.steps = q->steps + 1;
     if (told.lower > 0) *r = told;
@@ -116,14 +114,14 @@ static int spell_evidence(search *q, const evidence *e, vec v, const vertex *p, 
     return told.lower > 0;
 }
 
-/* Whether it shows the bodies to be apart; of the corner p. */
-HOT int tell_evidence(search *q, evidence *e, vec v, const vertex *p, const shape *a, const shape *b, result *r)
+/* Whether it shows the bodies to be apart. */
+HOT int tell_evidence(search *q, evidence *e, vec v, const shape *a, const shape *b, result *r)
 {
     const difference *d = &q->d;
     if (!(e->height > 0)) return 0;
     weigh_evidence(e, v, d->doubt);
     if (!(e->lower > (a->radius + b->radius) * d->scale)) return 0;
-    if (a->radius + b->radius > 0 || d->wild || d->scale != 1) return spell_evidence(q, e, v, p, a, b, r);
+    if (a->radius + b->radius > 0 || d->wild || d->scale != 1) return spell_evidence(q, e, v, a, b, r);
     spell_sharp(q, e, v, 1, a, b, r);
     return 1;
 }
@@ -190,7 +188,7 @@ static inline enum glanced glance(search *q, const shape *a, const shape *b, res
     start_glance(q, v);
     if (!(e.height > 0)) return IN_VAIN;
     if (!doubt_by_squares(d, cc, uu)) return UNCLEAR;
-    return tell_evidence(q, &e, v, p, a, b, r) ? TELLING : IN_VAIN;
+    return tell_evidence(q, &e, v, a, b, r) ? TELLING : IN_VAIN;
 }
 
 /* The square of how far the body reaches from its position, in the frame. */
@@ -212,7 +210,7 @@ static int glance_in_frame(search *q, const shape *a, const shape *b, result *r)
 {
     const vertex *p = spare(&q->s);
     evidence e = corner_shown(&q->d, q->v, p);
-    return tell_evidence(q, &e, q->v, p, a, b, r);
+    return tell_evidence(q, &e, q->v, a, b, r);
 }
 
 #endif

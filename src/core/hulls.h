@@ -37,6 +37,7 @@ HOT real square_of_hull(const body *k) { return k->posed ? sum_of_all(squared_co
 static APART enum glanced dig_at_door(search *q, real height, vec first_at, const shape *a, const shape *b, result *r)
 {
     portion k = first_portion(&q->d);
+    lay_maps(&q->d); /* no frame is settled */
     if (k.n > 1) look_at_portion(&q->d, &k, k.n);
     const enum glanced seen = dig_from(q, 1, k.n == 1, height, first_at, a, b, r);
     if (k.n > 1) look_at_portion(&q->d, &k, 1);
@@ -52,9 +53,11 @@ static APART enum glanced glance_at_hulls(search *q, const shape *a, const shape
     if (!take_hull(&d->a, a) || !take_hull(&d->b, b)) return UNTRIED;
     const vec c = offset(a->pose, b->pose), v = mul(c, -1);
     const real cc = dot(v, v);
-    if (!(cc > 1 / PLAIN) || !point_of_hull(&d->a, c, FIRST_SIGHT, &p->x, &e.a) ||
-        !point_of_hull(&d->b, v, FIRST_SIGHT, &p->y, &e.b))
+    if (!(cc > 1 / PLAIN) || !point_of_hull(&d->a, plain_direction(&d->a, c), FIRST_SIGHT, &p->x) ||
+        !point_of_hull(&d->b, plain_direction(&d->b, v), FIRST_SIGHT, &p->y))
         return UNTRIED;
+    e.a = mapped(&d->a, p->x);
+    e.b = mapped(&d->b, p->y);
     e.w = sub(e.a, add(e.b, c));
     e.height = dot(v, e.w);
     const real map_a = square_of_hull(&d->a), map_b = square_of_hull(&d->b);

@@ -55,10 +55,10 @@ static inline void know_reach_listed(body *k)
 }
 
 /* 0: it is not of plain sizes. A number that is none may pass; then no corner has one, and nothing is told. */
-HOT int seize_plain(body *k, const shape *s)
+HOT int seize_plain(body *k, const shape *s, real by)
 {
     k->support = s->support;
-    k->stretch = k->posed ? stretch(k->m) : 1;
+    k->stretch = by;
     know_reach_listed(k);
     k->size = k->reach > TINY ? k->reach : 0;
     return !unruly(k->stretch) && (k->size == 0 || !unruly(k->size)) && s->radius >= 0 && s->radius < PLAIN;
@@ -73,7 +73,9 @@ HOT void fit_plain(body *k, real scale)
 /* The frame, as start and settle have it. 0: not all sizes are plain. */
 static int settle_plain(difference *d, const shape *a, const shape *b)
 {
-    if (!seize_plain(&d->a, a) || !seize_plain(&d->b, b)) return 0;
+    lay_maps(d);
+    const duo stretches = duo_stretch(&d->maps);
+    if (!seize_plain(&d->a, a, of_a(stretches)) || !seize_plain(&d->b, b, of_b(stretches))) return 0;
     d->c = offset(a->pose, b->pose);
     real far_a = d->a.stretch * d->a.size, far_b = d->b.stretch * d->b.size, apart = spread(d->c);
     real whole = far_a + far_b + apart;
@@ -83,6 +85,7 @@ static int settle_plain(difference *d, const shape *a, const shape *b)
     if (unruly(d->a.stretch * d->scale) || unruly(d->b.stretch * d->scale)) return 0;
     fit_plain(&d->a, d->scale);
     fit_plain(&d->b, d->scale);
+    lay_grains(d);
     d->c = mul(d->c, d->scale);
     d->doubt = doubt_of(d, far_a * d->scale, far_b * d->scale, apart * d->scale);
     d->slack = 0;
@@ -119,18 +122,16 @@ static APART int settle_listed(difference *d, const shape *a, const shape *b)
 
 /* ---- asking ---- */
 
-/* The frame's direction as a body of plain sizes sees it. */
-HOT vec plain_direction(const body *k, vec dir)
-{
-    if (k->posed) dir = pull(k->m, dir);
-    return dir.c[0] == 0 && !(peak(dir) > 0) ? axis(0, 1) : dir; /* as levelled has it */
-}
+/* A direction that is none is the first axis, as levelled has it. */
+HOT vec seen_or_first(vec dir) { return dir.c[0] == 0 && !(peak(dir) > 0) ? axis(0, 1) : dir; }
 
-/* The body's corner farthest along the frame's direction, of corners that are known to be numbers or are found to be,
- * and within their reach. */
-HOT int farthest_plain(const body *k, vec dir, enum care care, vec *x)
+/* The frame's direction as a body of plain sizes sees it. */
+HOT vec plain_direction(const body *k, vec dir) { return seen_or_first(k->posed ? pull(k->m, dir) : dir); }
+
+/* The body's corner farthest along a direction as it sees it, of corners that are known to be numbers or are found to
+ * be, and within their reach. */
+HOT int farthest_seen(const body *k, vec dir, enum care care, vec *x)
 {
-    dir = plain_direction(k, dir);
     if (k->asked == AS_BOX) {
         *x = corner_of_box(k->data, dir);
         return 1;
@@ -146,12 +147,26 @@ HOT int farthest_plain(const body *k, vec dir, enum care care, vec *x)
     return fits(k, *x);
 }
 
+/* The same along the frame's direction. */
+HOT int farthest_plain(const body *k, vec dir, enum care care, vec *x)
+{
+    return farthest_seen(k, plain_direction(k, dir), care, x);
+}
+
+/* The corner of the difference that the points x and y make. */
+HOT vec corner_of_both(const difference *d, const vec *x, const vec *y)
+{
+    return corner_at_spots(d, duos_mapped(&d->maps, duos_mul(duos_at(x->c, y->c), d->grains)));
+}
+
 /* The corner least along v. */
 HOT int ask_plainly(difference *d, vec v, enum care care, vertex *p)
 {
+    const duos dirs = duos_pulled(&d->maps, duos_of(mul(v, -1), v));
     d->calls += 2;
-    if (!farthest_plain(&d->a, mul(v, -1), care, &p->x) || !farthest_plain(&d->b, v, care, &p->y)) return 0;
-    p->w = corner_of(d, p->x, p->y);
+    if (!farthest_seen(&d->a, seen_or_first(vec_of_a(dirs)), care, &p->x)) return 0;
+    if (!farthest_seen(&d->b, seen_or_first(vec_of_b(dirs)), care, &p->y)) return 0;
+    p->w = corner_of_both(d, &p->x, &p->y);
     return 1;
 }
 

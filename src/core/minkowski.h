@@ -17,7 +17,7 @@
 #ifndef GJK_CORE_MINKOWSKI_H
 #define GJK_CORE_MINKOWSKI_H
 
-#include "exact.h"
+#include "duo.h"
 #include "shapes.h"
 #include "simplex.h"
 
@@ -59,6 +59,8 @@ typedef struct difference {
     int wild;            /* sizes so large or small that directions need care */
     int loose;           /* a reach was surveyed with slack, which makes it none for other queries */
     int calls;
+    duo_map maps; /* the bodies', once the frame is settled, */
+    duo grains;   /* and their points', side by side */
 } difference;
 
 /* The reach in the caller's unit, and what there is of it. */
@@ -120,6 +122,24 @@ static inline int seek(difference *d, body *k, vec v, enum care care, vec *x)
 /* Brings the body's map to a norm from 1 to 2; it is 1 of a turn, whose norm may be just below. */
 static inline real level_of_map(const body *k) { return k->posed ? leveler(k->norm * (1 + LENGTH_OFF)) : 1; }
 
+/* The map of a body that is not turned. */
+#if DIM == 2
+static const real unturned[DIM * DIM] = {1, 0, 0, 1};
+#else
+static const real unturned[DIM * DIM] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+#endif
+
+HOT const real *map_of(const body *k) { return k->posed ? k->m : unturned; }
+
+HOT void lay_maps(difference *d) { d->maps = duo_map_at(map_of(&d->a), map_of(&d->b)); }
+HOT void lay_grains(difference *d) { d->grains = duo_of(d->a.grain, d->b.grain); }
+
+static void lay_side_by_side(difference *d)
+{
+    lay_maps(d);
+    lay_grains(d);
+}
+
 /* The body's point x, times its grain, from the body's position. */
 HOT vec mapped(const body *k, vec x) { return k->posed ? map(k->m, x) : x; }
 
@@ -127,6 +147,8 @@ HOT vec place(const body *k, vec x) { return mapped(k, mul(x, k->grain)); }
 
 /* The corner of the difference that two points make, times their grain; or as they are in the sets. */
 HOT vec corner_at(const difference *d, vec x, vec y) { return sub(mapped(&d->a, x), add(mapped(&d->b, y), d->c)); }
+
+HOT vec corner_at_spots(const difference *d, duos at) { return sub(vec_of_a(at), add(vec_of_b(at), d->c)); }
 
 HOT vec corner_of(const difference *d, vec x, vec y) { return sub(place(&d->a, x), add(place(&d->b, y), d->c)); }
 
@@ -296,6 +318,7 @@ static int settle(difference *d, real slack)
     if (slack > 0)
         d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 256 * UNIT);
     d->slack = smaller(d->slack, REAL_MAX);
+    lay_side_by_side(d);
     return d->doubt <= REAL_MAX;
 }
 

@@ -293,14 +293,6 @@ static twin fine_floor(const polytope *p, const facet *f)
 
 /* ---- normals of known corners ---- */
 
-/* The upper digits of x, which is within that size, a power of two: of the products of two such, sums of DIM keep all
- * their digits. */
-static inline real leading_digits(real x, real size)
-{
-    real big = size * (real)((bits)3 << (MANTISSA - MANTISSA / 2 - 1));
-    return (x + big) - big;
-}
-
 /* Adds sign times the way from one point of the body to another, as the frame sees it: what is added rounds itself, not
  * as the points do. No bound depends on it. */
 static inline void add_way(const body *k, real sign, vec from, vec to, vec *way, vec *rest)
@@ -316,11 +308,11 @@ static inline void add_way(const body *k, real sign, vec from, vec to, vec *way,
     lost = low;
     if (k->posed) {
         const real of_map = 2 / leveler(k->norm), of_way = 4 / leveler(k->reach * k->grain);
-        EACH(up.c[i] = leading_digits(x.c[i], of_way));
+        EACH(up.c[i] = upper_digits(x.c[i], of_way));
         low = add(sub(x, up), low);
         for (int row = 0; row < DIM; row++) {
             vec m = load(k->m + DIM * row), m_up;
-            EACH(m_up.c[i] = leading_digits(m.c[i], of_map));
+            EACH(m_up.c[i] = upper_digits(m.c[i], of_map));
             here.c[row] = dot(m_up, up);
             lost.c[row] = dot(m_up, low) + dot(sub(m, m_up), x);
         }

@@ -5,7 +5,7 @@
 #ifndef GJK_CORE_PLAIN_H
 #define GJK_CORE_PLAIN_H
 
-#include "listed.h"
+#include "spots.h"
 
 /* ---- walking ---- */
 
@@ -148,121 +148,54 @@ static enum end stroll(search *q, const goal *g, int headings, int hasty)
 
 /* ---- telling ---- */
 
-/* The upper digits of x, which is within that size, a power of two: whole multiples of 2^-GRID of it. A sum of DIM
- * products of such multiples, each row of a map within its size, is exact. */
-#define GRID (MANTISSA / 2)
-static inline real upper_digits(real x, real size)
-{
-    real big = size * (real)((bits)3 << (MANTISSA - GRID - 1));
-    return (x + big) - big;
-}
-
-/* A power of two above x. */
-static inline real above(real x)
-{
-    bits e;
-    memcpy(&e, &x, sizeof e);
-    e = ((e >> MANTISSA) + 1) << MANTISSA;
-    memcpy(&x, &e, sizeof x);
-    return x;
-}
-
-/* m (x + low), x times its grain: a part without rounding, and the rest. Cheaper than remainder_of, and not as exact,
- * since no bound depends on it, only the value. */
-static inline void place_in_parts(const body *k, vec x, vec low, vec *upper, vec *rest)
-{
-    *upper = x;
-    *rest = low;
-    if (!k->posed || k->size == 0) return; /* then all is 0 */
-    real of_map = above(k->norm), of_point = above(peak(x));
-    vec x_up;
-    EACH(x_up.c[i] = upper_digits(x.c[i], of_point));
-    vec x_rest = add(sub(x, x_up), low);
-    for (int row = 0; row < DIM; row++) {
-        vec m = load(k->m + DIM * row), up;
-        EACH(up.c[i] = upper_digits(m.c[i], of_map));
-        upper->c[row] = dot(up, x_up);
-        rest->c[row] = dot(up, x_rest) + dot(sub(m, up), x);
-    }
-}
-
-/* Where the pair of points is that the weights single out, in the sets, times their grain, and what of that rounds
- * away; and the corner of the difference that they make. */
-typedef struct closest {
-    vec x, x_low, y, y_low, w;
-} closest;
-
-static inline closest pair_of(const search *q)
-{
-    const difference *d = &q->d;
-    closest p;
-    real weight[DIM + 1];
-    weigh_walked(q, weight);
-    p.x = fine_blend(&q->s, weight, offsetof(vertex, x), d->a.grain, &p.x_low);
-    p.y = fine_blend(&q->s, weight, offsetof(vertex, y), d->b.grain, &p.y_low);
-    p.w = corner_at(d, p.x, p.y);
-    return p;
-}
-
-/* The corner in the spare slot by itself. */
-static inline closest last_of(const search *q)
-{
-    const vertex *last = corner(&q->s, q->s.n);
-    return (closest){.x = mul(last->x, q->d.a.grain), .y = mul(last->y, q->d.b.grain), .w = last->w};
-}
-
-/* What rounding took from its corner. */
-static inline vec lost_of_pair(const difference *d, const closest *p)
-{
-    vec a, a_rest, b, b_rest, low;
-    place_in_parts(&d->a, p->x, p->x_low, &a, &a_rest);
-    place_in_parts(&d->b, p->y, p->y_low, &b, &b_rest);
-    for (int i = 0; i < DIM; i++) {
-        twin t = sum_of(a.c[i], -b.c[i]), s = sum_of(t.high, -d->c.c[i]);
-        low.c[i] = (s.high - p->w.c[i]) + ((s.low + t.low) + (a_rest.c[i] - b_rest.c[i] - d->c_low.c[i]));
-    }
-    return low;
-}
-
 /* The corner in the spare slot looked no lower along v than the pair, but it is, without the roundings of either. */
-static int is_passed_over(const search *q, const closest *p, vec low)
+static int is_passed_over(const search *q, const spots *p, vec low)
 {
-    closest c = last_of(q);
-    vec way = add(sub(p->w, c.w), sub(low, lost_of_pair(&q->d, &c)));
+    const spots c = last_spots(q);
+    vec way = add(sub(p->w, c.w), sub(low, lost_of_spots(&q->d, &q->d.maps, &c)));
     return dot(q->v, way) > forgiven(q->s.n) * noise_along(q->v, way);
 }
 
-/* How long w is, to twice the digits, low being what it lost. */
-static inline twin length_to_twice(vec w, vec low)
+/* How long w is, to twice the digits, l being its length, and low what it lost. */
+static inline twin length_to_twice(vec w, real l, vec low)
 {
-    twin square = {0, 2 * dot(w, low)};
-    for (int i = 0; i < DIM; i++) gather(&square, square_of(w.c[i]));
-    real l = root(square.high);
-    twin back = square_of(l);
-    return (twin){l, ((square.high - back.high) + (square.low - back.low)) / (2 * l)};
+    const twin back = square_of(l);
+    real rest = 2 * dot(w, low), high = 0;
+    for (int i = 0; i < DIM; i++) {
+        const twin square = square_of(w.c[i]), sum = sum_of(high, square.high);
+        high = sum.high;
+        rest += sum.low + square.low;
+    }
+    return (twin){l, ((high - back.high) + (rest - back.low)) / (2 * l)};
 }
 
 /* What the bounds and the pair tell; upper is of the cores. */
-static inline void spell(const search *q, const shape *a, const shape *b, real upper, const closest *p, result *r)
+static inline void spell(const search *q, const shape *a, const shape *b, real upper, vec at_a, vec at_b, vec way,
+                         result *r)
 {
     bracket(r, &q->d, q->lower, upper, a, b);
-    place_pair(r, q, p->x, p->y, p->w, a, b);
+    place_pair(r, q, at_a, at_b, way, a, b);
     store(r->normal, q->normal);
     r->steps = q->steps;
     r->supports = q->d.calls;
     r->reserved = 0;
 }
 
+static inline void spell_spots(const search *q, const shape *a, const shape *b, real upper, const spots *p, result *r)
+{
+    spell(q, a, b, upper, vec_of_a(p->at), vec_of_b(p->at), p->w, r);
+}
+
 /* The same, and how far apart they are: as the pair is, which lost low to rounding. */
-static inline void spell_distance(const search *q, const shape *a, const shape *b, real upper, const closest *p,
+static inline void spell_distance(const search *q, const shape *a, const shape *b, real far, real upper, const spots *p,
                                   vec low, result *r)
 {
-    r->value = gap_of(&q->d, length_to_twice(p->w, low), a, b);
-    spell(q, a, b, upper, p, r);
+    r->value = gap_of(&q->d, length_to_twice(p->w, far, low), a, b);
+    spell_spots(q, a, b, upper, p, r);
 }
 
 /* The walk came so far with a gap that rounding does not blur, and this is a pair as near as v. */
-static inline int is_evident(const search *q, const goal *g, enum end end, const closest *p, real upper)
+static inline int is_evident(const search *q, const goal *g, enum end end, const spots *p, real upper)
 {
     real doubt = q->d.doubt, width = upper - q->lower;
     if (end == WITHIN) return upper < g->within;
@@ -287,9 +220,9 @@ static void point_along(search *q, vec way)
 /* The cores overlap, or the radii do; a point of both is off by no more than that. */
 static void tell_overlap(search *q, const shape *a, const shape *b, enum end end, real off, result *r)
 {
-    closest p = pair_of(q);
+    const spots p = nearest_spots(q);
     real upper = end == INSIDE ? q->d.doubt - q->inside : length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
-    spell(q, a, b, upper, &p, r);
+    spell_spots(q, a, b, upper, &p, r);
     if (end == INSIDE && !(peak(p.w) <= off)) r->upper = 0; /* the pair is none */
 }
 
@@ -304,22 +237,22 @@ static int tell_distance(search *q, const shape *a, const shape *b, const goal *
         return r->upper < 0;
     }
     if (end == BEYOND && q->s.n == 0) step_plainly(q);
-    closest p = pair_of(q);
-    real upper = length(p.w) * (1 + 8 * UNIT) + q->d.doubt;
+    const spots p = nearest_spots(q);
+    const real far = length(p.w), upper = far * (1 + 8 * UNIT) + q->d.doubt;
     if (!is_evident(q, g, end, &p, upper)) return 0;
     know_offset(&q->d, a, b);
-    vec low = lost_of_pair(&q->d, &p);
+    vec low = lost_of_spots(&q->d, &q->d.maps, &p);
     if (end == STILL && !q->repeated && is_passed_over(q, &p, low)) return 0;
     if (end == STILL && g->deep) point_along(q, add(p.w, low));
-    spell_distance(q, a, b, upper, &p, low, r);
+    spell_distance(q, a, b, far, upper, &p, low, r);
     return 1;
 }
 
 /* Apart, as the corner in the spare slot proves. */
 static inline void spell_apart(const search *q, const shape *a, const shape *b, result *r)
 {
-    closest p = last_of(q);
-    spell(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, r);
+    const spots p = last_spots(q);
+    spell_spots(q, a, b, length(p.w) * (1 + 8 * UNIT) + q->d.doubt, &p, r);
 }
 
 /* The same of a walk; v, for the next query, is made of the other corners. */

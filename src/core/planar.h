@@ -401,6 +401,12 @@ HOT vec point_between(const cluster *p, unsigned from, unsigned to, real share, 
     return r;
 }
 
+/* A point of each body, times its grain, with what of it rounds away, and the corner of the difference that they make.
+ */
+typedef struct closest {
+    vec x, x_low, y, y_low, w;
+} closest;
+
 HOT closest pair_at_front(const difference *d, const scene *k, const front *f, real share)
 {
     closest p;
@@ -643,7 +649,7 @@ HOT int tell_front(search *q, const scene *k, front *f, int framed, const shape 
     } else {
         const twin far = length_by_digits(t.way, lost_finely(d, k, &pair, a, b));
         t.upper = far.high * (1 + 8 * UNIT) + d->doubt;
-        t.value = g->radius == 0 ? (far.high + far.low) * d->unscale : gap_of(d, far, a, b);
+        t.value = gap_of(d, far, a, b);
         if (!(t.upper - t.lower <= MOST_WIDE * d->doubt) && f->ended) return 0;
     }
     if (spell_verdict(q, &t, f, framed, a, b, g, r)) return 1;

@@ -74,41 +74,37 @@ static inline portion first_portion(const difference *d)
     return (portion){d->a.list, d->b.list, of_a > of_b ? of_a : of_b};
 }
 
-/* The body's point farthest along the frame's direction, in haste, and where it is placed. 0: it is none. */
-static APART int point_toward(const body *k, vec dir, vec *x, vec *at)
-{
-    if (!farthest_plain(k, dir, HASTY, x)) return 0;
-    *at = place(k, *x);
-    return 1;
-}
+/* The body's point farthest along a direction as it sees it, in haste. 0: it is none. */
+static APART int point_toward(const body *k, vec dir, vec *x) { return farthest_seen(k, dir, HASTY, x); }
 
 /* The same of a hull at the door: of eight corners or more, in the caller's lengths. */
-HOT int point_of_hull(const body *k, vec dir, enum care care, vec *x, vec *at)
+HOT int point_of_hull(const body *k, vec dir, enum care care, vec *x)
 {
     const list *l = &k->list;
-    dir = plain_direction(k, dir);
     const size_t best = l->count < MANY ? farthest_of_some(l, dir, care) : farthest_among(l, dir, care);
     if (best == l->count) return 0;
     *x = nth_of(l, best);
-    *at = mapped(k, *x);
     return fits(k, *x);
 }
 
 /* The corner least along the way, in haste, and what it shows; hulls: both are, at the door. 0: it is none. */
 HOT int find_corner(difference *d, int hulls, vec way, vertex *p, evidence *e)
 {
-    const vec back = mul(way, -1);
     if (!hulls && d->wild) {
         if (!ask_with(d, way, HASTY, p)) return 0;
-        e->a = place(&d->a, p->x);
-        e->b = place(&d->b, p->y);
     } else {
+        const duos dirs = duos_pulled(&d->maps, duos_of(mul(way, -1), way));
+        const vec of_a = seen_or_first(vec_of_a(dirs)), of_b = seen_or_first(vec_of_b(dirs));
         d->calls += 2;
-        if (hulls ? !point_of_hull(&d->a, back, HASTY, &p->x, &e->a) || !point_of_hull(&d->b, way, HASTY, &p->y, &e->b)
-                  : !point_toward(&d->a, back, &p->x, &e->a) || !point_toward(&d->b, way, &p->y, &e->b))
+        if (hulls ? !point_of_hull(&d->a, of_a, HASTY, &p->x) || !point_of_hull(&d->b, of_b, HASTY, &p->y)
+                  : !point_toward(&d->a, of_a, &p->x) || !point_toward(&d->b, of_b, &p->y))
             return 0;
     }
-    p->w = e->w = sub(e->a, add(e->b, d->c));
+    const vec x = hulls ? p->x : mul(p->x, d->a.grain), y = hulls ? p->y : mul(p->y, d->b.grain);
+    const duos at = duos_mapped(&d->maps, duos_of(x, y));
+    e->a = vec_of_a(at);
+    e->b = vec_of_b(at);
+    p->w = e->w = corner_at_spots(d, at);
     e->height = dot(way, e->w);
     return 1;
 }
@@ -123,15 +119,14 @@ static inline int seek_corner(search *q, evidence *e, vec at[DIM + 1])
     return 1;
 }
 
-/* The corner p, sought along that way, proves the bodies to be apart. */
-static inline int tell_corner(search *q, evidence *e, vec way, const vertex *p, const shape *a, const shape *b,
-                              result *r)
+/* A corner, sought along that way, proves the bodies to be apart. */
+static inline int tell_corner(search *q, evidence *e, vec way, const shape *a, const shape *b, result *r)
 {
     if (!(e->height > 0)) return 0;
     weigh_evidence(e, way, q->d.doubt);
     if (!(e->lower > 0)) return 0;
     q->pending = 0; /* the next query starts better from the others */
-    if (q->d.wild) return spell_evidence(q, e, way, p, a, b, r);
+    if (q->d.wild) return spell_evidence(q, e, way, a, b, r);
     spell_sharp(q, e, way, q->d.unscale, a, b, r);
     return 1;
 }
@@ -269,11 +264,10 @@ HOT vec middle_of(const list *l, real by)
     return mul(add(x, y), (real)1 / EIGHT);
 }
 
-/* And where it is placed. */
 HOT vec inner_point(const body *k, int hull)
 {
     if (!hull && k->asked == AS_BOX) return axis(0, 0);
-    return mapped(k, middle_of(&k->list, hull ? 1 : k->grain));
+    return middle_of(&k->list, hull ? 1 : k->grain);
 }
 
 /* The ways least along which such corners lie: beside the line from o, within, to the first corner p. How long its
@@ -308,7 +302,8 @@ HOT enum glanced dig_from(search *q, int hulls, int of_all, real height, vec fir
 {
     difference *d = &q->d;
     const vertex first = q->s.slot[0];
-    const vec in_a = inner_point(&d->a, hulls), o = sub(in_a, add(inner_point(&d->b, hulls), d->c));
+    const duos within = duos_mapped(&d->maps, duos_of(inner_point(&d->a, hulls), inner_point(&d->b, hulls)));
+    const vec in_a = vec_of_a(within), o = corner_at_spots(d, within);
     const real far = far_out_of(d), by = hulls ? leveler(far) : 1, l = root(dot(d->c, d->c));
     vec way[FAN + 1], at[DIM + 1] = {first_at, first_at, first_at, in_a};
     tetra t = {.w = {mul(first.w, by), o, o, mul(o, by)}};
@@ -322,7 +317,7 @@ HOT enum glanced dig_from(search *q, int hulls, int of_all, real height, vec fir
         vertex own, *p = hulls ? &own : &q->s.slot[across];
         if (!find_corner(d, hulls, v, p, &e)) return UNCLEAR;
         q->steps = 1 + q->dug++;
-        if (of_all && tell_corner(q, &e, v, p, a, b, r)) return TELLING;
+        if (of_all && tell_corner(q, &e, v, a, b, r)) return TELLING;
         t.w[across] = mul(e.w, by);
         at[across] = e.a;
         if (q->dug < FAN) {
@@ -368,7 +363,7 @@ static enum glanced stride_among(search *q, portion *k, int max_steps, const sha
         const int heads = headings-- > 0, of_all = k->n == 1;
         q->way = heads ? heading(q, centres) : q->v;
         if (!seek_corner(q, &e, at)) return UNCLEAR;
-        if (of_all && tell_corner(q, &e, q->way, spare(&q->s), a, b, r)) return TELLING;
+        if (of_all && tell_corner(q, &e, q->way, a, b, r)) return TELLING;
         q->steps++;
         if (q->s.n == DIM && tell_closed(q, &e, of_all, at, a, b, r)) return TELLING;
         q->stood = leads_nowhere(q) || (!of_all && !heads && !(dot(q->v, e.w) < q->vv / 2));
@@ -402,6 +397,7 @@ static enum glanced stride(search *q, int max_steps, const shape *a, const shape
 {
     portion k = first_portion(&q->d);
     const int take_all = !is_long_way(&q->d);
+    lay_maps(&q->d); /* no frame is settled, or another one */
     stand_on_first(q);
     if (k.n > 1) {
         const evidence first = {.height = dot(q->way, q->v)};

@@ -75,8 +75,6 @@ typedef struct sticks {
     duo per;     /* and 1 by that; 0 of a point */
 } sticks;
 
-HOT const real *map_of(const body *k) { return k->posed ? k->m : unturned; }
-
 HOT const real *last_of_list(const list *l) { return l->v + (l->count - 1) * l->step; }
 
 HOT void place_sticks(const difference *d, sticks *s)
@@ -119,22 +117,19 @@ HOT duo nearest_shares(const sticks *k, vec c)
     return duo_of(s, t);
 }
 
-/* Points at such shares of the way, from the end that is nearer: placed, and in their own coordinates. */
-typedef struct spots {
-    duos at, x, x_low;
-} spots;
-
-HOT void place_spots(const sticks *k, duo share, int exactly, spots *p)
+/* The points at such shares of the way, from the end that is nearer; exactly: in their own coordinates, too. */
+HOT void place_spots(const difference *d, const sticks *k, duo share, int exactly, spots *p)
 {
     const duo half = duo_both((real)0.5), rest = duo_sub(duo_both(1), share);
     const duo part = duo_where_larger(share, half, rest, share);
     const duo back = duo_where_larger(share, half, duo_sub(duo_both(0), rest), share);
     p->at = duos_add(duos_where_larger(share, half, k->at[1], k->at[0]), duos_mul(k->way, back));
+    p->w = corner_at_spots(d, p->at);
     if (!exactly) return;
     const duos from = duos_where_larger(share, half, k->end[1], k->end[0]);
     const duos to = duos_where_larger(share, half, k->end[0], k->end[1]), way = duos_mul(duos_sub(to, from), part);
     p->x = duos_add(from, way);
-    EACH(p->x_low.c[i] = duo_lost(from.c[i], way.c[i], p->x.c[i]));
+    EACH(p->low.c[i] = duo_lost(from.c[i], way.c[i], p->x.c[i]));
 }
 
 /* The length of what rounding is a share of in the way from end to end. */
@@ -144,42 +139,6 @@ HOT duo edges_of(const sticks *k)
     duos far;
     EACH(far.c[i] = duos_dot_size(row_of_map(&k->m, i), way));
     return duo_root(duos_dot(far, far));
-}
-
-/* m (x + low): a part without rounding, and the rest, as place_in_parts has it (plain.h). */
-HOT duo upper_digits_of(duo x, duo big) { return duo_sub(duo_add(x, big), big); }
-
-HOT duo big_above(real a, real b)
-{
-    const real off = (real)((bits)3 << (MANTISSA - GRID - 1));
-    return duo_of(above(a) * off, above(b) * off);
-}
-
-HOT void place_spots_in_parts(const difference *d, const duo_map *m, const spots *p, duos *upper, duos *rest)
-{
-    const duo far = duos_peak(p->x), of_point = big_above(of_a(far), of_b(far));
-    const duo of_map = big_above(d->a.norm, d->b.norm);
-    duos x_up;
-    EACH(x_up.c[i] = upper_digits_of(p->x.c[i], of_point));
-    const duos x_rest = duos_add(duos_sub(p->x, x_up), p->x_low);
-    for (int row = 0; row < DIM; row++) {
-        const duos own = row_of_map(m, row);
-        duos up;
-        EACH(up.c[i] = upper_digits_of(own.c[i], of_map));
-        upper->c[row] = duos_dot(up, x_up);
-        rest->c[row] = duo_add(duos_dot(up, x_rest), duos_dot(duos_sub(own, up), p->x));
-    }
-}
-
-/* What rounding took from their corner w. */
-HOT vec lost_of_spots(const difference *d, const duo_map *m, const spots *p, vec w)
-{
-    duos upper, rest;
-    vec low;
-    place_spots_in_parts(d, m, p, &upper, &rest);
-    EACH(const twin t = sum_of(of_a(upper.c[i]), -of_b(upper.c[i])); const twin s = sum_of(t.high, -d->c.c[i]);
-         low.c[i] = (s.high - w.c[i]) + ((s.low + t.low) + (of_a(rest.c[i]) - of_b(rest.c[i]) - d->c_low.c[i])));
-    return low;
 }
 
 /* As lost_of_rise and fall_along have it, of both. */
@@ -238,12 +197,12 @@ HOT void sight_sticks(const difference *d, const goal *g, const sticks *k, sight
     const duo share = nearest_shares(k, d->c);
     duo edge = duo_both(0);
     spots p;
-    place_spots(k, share, exactly, &p);
+    place_spots(d, k, share, exactly, &p);
     e->inside = 0;
     e->a = vec_of_a(p.at);
     e->b = vec_of_b(p.at);
-    e->w = sub(e->a, add(e->b, d->c));
-    e->low = exactly ? lost_of_spots(d, &k->m, &p, e->w) : axis(0, 0);
+    e->w = p.w;
+    e->low = exactly ? lost_of_spots(d, &k->m, &p) : axis(0, 0);
     e->v = exactly ? add(e->w, e->low) : e->w;
     e->l = are_of_length(k, d) ? length(e->v) : 0;
     if (exactly) edge = edges_of(k);
@@ -346,12 +305,13 @@ static inline void sight_box(const difference *d, const goal *g, real level, sig
     const real toward = of_a ? -1 : 1; /* the box, along v */
     vec foot = clamped(k.x, k.half);
     if (leaves) foot.c[k.out] = signed_as(k.half.c[k.out], k.x.c[k.out]);
-    closest pair = {.x = of_a ? foot : k.point, .y = of_a ? k.point : foot};
-    e->a = mapped(&d->a, pair.x);
-    e->b = mapped(&d->b, pair.y);
+    const duo_map maps = duo_map_at(map_of(&d->a), map_of(&d->b));
+    const spots pair = spots_at(d, &maps, duos_of(of_a ? foot : k.point, of_a ? k.point : foot));
+    e->a = vec_of_a(pair.at);
+    e->b = vec_of_b(pair.at);
     e->inside = k.out >= 0;
-    e->w = pair.w = sub(e->a, add(e->b, d->c));
-    e->low = g->sign_only ? axis(0, 0) : lost_of_pair(d, &pair);
+    e->w = pair.w;
+    e->low = g->sign_only ? axis(0, 0) : lost_of_spots(d, &maps, &pair);
     e->v = add(e->w, e->low);
     e->l = length(e->v);
     if (e->inside) sight_way_out(&k, toward, e);
@@ -408,7 +368,7 @@ HOT int tell_sight(const difference *d, const sight_of_two *e, const shape *a, c
     if (rough) {
         if (!bound_roughly(d, e, &lower, &upper)) return 0;
     } else {
-        const twin l = e->inside ? e->height : length_to_twice(e->w, e->low);
+        const twin l = e->inside ? e->height : length_to_twice(e->w, length(e->w), e->low);
         if (!bound_finely(d, e, l, g, &lower, &upper)) return 0;
         value = gap_of(d, l, a, b);
     }
@@ -570,6 +530,7 @@ HOT int list_thin(body *k, const shape *s)
 HOT enum glanced tell_thin_at_once(const shape *a, const shape *b, cache *own, const goal *g, result *r)
 {
     difference d;
+    if (are_boxes(a, b)) return UNTRIED;
     if (!list_thin(&d.a, a) || !list_thin(&d.b, b) || !are_thin(&d)) return UNTRIED;
     const enum glanced seen = tell_thin(&d, a, b, g, r);
     if (seen == TELLING && own) own->count = 0; /* there is nothing that a formula would start from */

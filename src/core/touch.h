@@ -266,26 +266,33 @@ static inline int is_short(real x, int places, real power)
     return (x + big) - big == x;
 }
 
-/* The body's map is short, for its size; to which it came without rounding where sizes are plain. */
-static int is_map_short(const body *k)
+/* By how much numbers are off such multiples, in all; big is as above. */
+HOT duo odds_of_both(duo odds, duo x, duo big)
 {
-    int r = 1;
-    real power = 2 / level_of_map(k);
-    for (int i = 0; i < DIM * DIM && k->posed; i++) r &= is_short(k->m[i], SHORT, power);
-    return r;
+    return duo_add(odds, duo_size(duo_sub(duo_sub(duo_add(x, big), big), x)));
 }
 
-/* So are the simplex's points of the body, before such a map, where all sums are within twice that power, and they came
- * there whole. Those of a box differ in signs. */
-static inline int are_points_short(const body *k, const simplex *s, size_t member, real power)
+HOT duo big_for(int places, duo power) { return duo_mul(duo_both((real)((bits)3 << (MANTISSA - places - 1))), power); }
+
+/* The bodies' maps are short, for their sizes; to which they came without rounding where sizes are plain. So are the
+ * simplex's points of them, before such maps, where all sums are within twice that power, and they came there whole.
+ * The corners of a box differ in signs. */
+static int are_parts_short(const difference *d, const simplex *s, real power)
 {
-    int r = 1, n = k->asked == AS_BOX ? 1 : s->n;
-    real share = level_of_map(k) / 2 * power;
+    const duo none = duo_both(0), levels = duo_of(level_of_map(&d->a), level_of_map(&d->b));
+    const duo grains = duo_of(d->a.grain, d->b.grain), of_map = big_for(SHORT, duo_div(duo_both(2), levels));
+    const duo of_point = big_for(SHORT, duo_mul(levels, duo_both(power / 2)));
+    const real *m_a = map_of(&d->a), *m_b = map_of(&d->b);
+    const int n = d->a.asked == AS_BOX && d->b.asked == AS_BOX ? 1 : s->n;
+    duo odds = none;
+    for (int i = 0; i < DIM * DIM; i++) odds = odds_of_both(odds, duo_at(m_a + i, m_b + i), of_map);
     for (int j = 0; j < n; j++) {
-        vec x = member_of(corner(s, j), member), y = mul(x, k->grain);
-        EACH(r &= is_short(y.c[i], SHORT, share) & ((y.c[i] != 0) | (x.c[i] == 0)));
+        const vertex *p = corner(s, j);
+        const duos x = duos_at(p->x.c, p->y.c), y = duos_mul(x, grains);
+        EACH(odds = odds_of_both(odds, y.c[i], of_point);
+             odds = duo_add(odds, duo_where_larger(duo_size(y.c[i]), none, none, duo_size(x.c[i]))));
     }
-    return r;
+    return of_a(odds) == 0 && of_b(odds) == 0;
 }
 
 static inline int are_corners_short(const simplex *s)
@@ -352,10 +359,7 @@ static int weigh_plainly(const simplex *s, real weight[DIM + 1])
  * two, in the frame within 2. */
 static int are_corners_whole(const difference *d, const simplex *s, const shape *a, const shape *b, real power)
 {
-    if (!is_way_short(d, a, b, power)) return 0;
-    if (!are_points_short(&d->a, s, offsetof(vertex, x), power)) return 0;
-    if (!are_points_short(&d->b, s, offsetof(vertex, y), power)) return 0;
-    if (!is_map_short(&d->a) || !is_map_short(&d->b)) return 0;
+    if (!is_way_short(d, a, b, power) || !are_parts_short(d, s, power)) return 0;
     for (int i = 0; i < s->n && d->wild; i++)
         if (!is_map_whole(&d->a, a, corner(s, i)->x) || !is_map_whole(&d->b, b, corner(s, i)->y)) return 0;
     return 1;
