@@ -13,17 +13,7 @@
 #include <gmp.h>
 #include "quad.h"
 #include "splitmix.h"
-
-#define GJK_ALONE
-#if VARIANT_DIM == 2 && VARIANT_FLOAT
-#include "../src/gjk2f.c"
-#elif VARIANT_DIM == 2
-#include "../src/gjk2.c"
-#elif VARIANT_FLOAT
-#include "../src/gjk3f.c"
-#else
-#include "../src/gjk3.c"
-#endif
+#include "inside.h"
 
 #define PAIRS 20000
 

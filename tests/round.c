@@ -10,12 +10,7 @@
 #include <cmocka.h>
 #include "quad.h"
 #include "splitmix.h"
-
-#if VARIANT_DIM == 2
-#include "../src/gjk2.c"
-#else
-#include "../src/gjk3.c"
-#endif
+#include "inside.h"
 
 #define PAIRS 4000
 #define TURNS_EACH 40 /* from each of them */
