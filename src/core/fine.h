@@ -197,6 +197,26 @@ static real rise_to(const sight *e, const body *k, const simplex *s, size_t memb
     return rise_along(&e->way, &edge);
 }
 
+/* A bit for each of the list's eight corners from there on, or of all where they are fewer, times their grain: whether
+ * it is not higher than that. */
+static inline unsigned not_above(const body *k, size_t from, vec way, real most)
+{
+    const list *l = &k->list;
+    lanes at[DIM], high[EIGHT / LANES];
+    unsigned r = 0;
+    for (size_t i = 0; i < l->count && l->count < EIGHT; i++)
+        r |= (unsigned)!(dot(mul(nth_of(l, i), k->grain), way) > most) << i;
+    if (l->count < EIGHT) return r;
+    const ways back = ways_of(mul(way, -1));
+    for (size_t j = 0; j < EIGHT / LANES; j++) {
+        load_lanes(l->v + (from + j * LANES) * l->step, l->step, at);
+        EACH(at[i] = products(at[i], in_all(k->grain)));
+        high[j] = products(at[0], back.c[0]);
+        REST(high[j] = sums(high[j], products(at[i], back.c[i])));
+    }
+    return eight_as_large(high, in_all(-most));
+}
+
 /* How far any corner of the body leads down the way from the simplex's first, or with sign -1 up: not above 0; x is
  * that corner. Rounded heights tell which corners do not; a box's edges are asked one by one. */
 static real fall_of(const sight *e, const body *k, const simplex *s, size_t member, const real rise[DIM + 1], real sign,
@@ -217,13 +237,16 @@ static real fall_of(const sight *e, const body *k, const simplex *s, size_t memb
     }
     if (k->asked == AS_BOX) return sum;
     clear += dot(mul(first, k->grain), rough);
-    for (size_t i = 0; i < k->list.count; i++) {
-        vec y = nth_of(&k->list, i);
-        if (dot(mul(y, k->grain), rough) > clear || same(y, first)) continue;
-        real fall = sign * rise_to(e, k, s, member, rise, y);
-        if (!(fall < least)) continue;
-        least = fall;
-        *x = y;
+    for (size_t i = 0; i < k->list.count; i += EIGHT) {
+        const size_t from = k->list.count < EIGHT ? 0 : later_eight(i, k->list.count - EIGHT);
+        for (unsigned low = not_above(k, from, rough, clear); low; low &= low - 1) {
+            const vec y = nth_of(&k->list, from + first_bit(low));
+            if (same(y, first)) continue;
+            const real fall = sign * rise_to(e, k, s, member, rise, y);
+            if (!(fall < least)) continue;
+            least = fall;
+            *x = y;
+        }
     }
     return least;
 }
