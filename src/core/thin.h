@@ -418,7 +418,6 @@ static inline int is_of_plain_size(const body *k, real map, real set)
 /* What it takes to know what rounding took from a pair. */
 static inline void know_norms(difference *d, real of_a, real of_b)
 {
-    d->a.size = d->b.size = 1; /* not 0, where nothing is known to be rounded */
     d->a.norm = of_a;
     d->b.norm = of_b;
 }
