@@ -435,6 +435,26 @@ static APART size_t settle_blocks(const list *l, vec d, const blocks *b, enum ca
     return t.best;
 }
 
+/* The same where each block is one eight; the set is of those with almost equals. */
+static APART size_t settle_eights(const list *l, vec d, uint64_t set, lanes most, lanes least)
+{
+    const ways way = ways_of(d);
+    size_t from[BLOCKS], best = EIGHT - 1, n = 0;
+    int found = 0;
+    unsigned near[BLOCKS];
+    for (; set; set = later_blocks(set, first_block(set)), n++) {
+        from[n] = later_eight(first_block(set) * EIGHT, l->count - EIGHT);
+        const eight e = look_at_eight(l->v + from[n] * l->step, l->step, &way);
+        const unsigned at = eight_as_large(e.high, most);
+        near[n] = eight_as_large(e.high, least);
+        if (at && !found) best = from[n] + first_bit(at);
+        found |= at != 0;
+    }
+    tie t = tie_of(l, d, best);
+    for (size_t k = 0; k < n; k++) look_among(&t, l, d, from[k], near[k]);
+    return t.best;
+}
+
 HOT size_t farthest_in_blocks(const list *l, size_t step, vec d, size_t eights, enum care care)
 {
     const size_t n = l->count;
@@ -447,10 +467,10 @@ HOT size_t farthest_in_blocks(const list *l, size_t step, vec d, size_t eights, 
     const uint64_t set = blocks_as_large(&b, least);
     if (eights > 1 || !set) return settle_blocks(l, d, &b, care);
     const size_t block = first_block(set), from = later_eight(block * EIGHT, n - EIGHT);
-    if (tells_equals(care) && later_blocks(set, block)) return settle_blocks(l, d, &b, care);
+    if (tells_equals(care) && later_blocks(set, block)) return settle_eights(l, d, set, most, least);
     const eight e = look_at_eight(l->v + from * step, step, &way);
     const unsigned near = eight_as_large(e.high, least);
-    if (tells_equals(care) && is_more_than_one(near)) return settle_blocks(l, d, &b, care);
+    if (tells_equals(care) && is_more_than_one(near)) return settle_eights(l, d, set, most, least);
     return from + first_bit(near | 1u << (EIGHT - 1));
 }
 
