@@ -221,6 +221,9 @@ HOT duo square_of_duo_map(const duo_map *m)
     return sum;
 }
 
+/* The upper digits, big being a power of two above x times ROUNDING_TO them. */
+HOT duo upper_digits_of(duo x, duo big) { return duo_sub(duo_add(x, big), big); }
+
 /* What rounds away in a sum. */
 HOT duo duo_lost(duo x, duo y, duo sum)
 {

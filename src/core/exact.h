@@ -24,13 +24,16 @@ static inline real upper_half(real a)
     return t - (t - a);
 }
 
+/* Times a power of two, and of numbers within that: added and taken off again it leaves whole multiples of 2^-places of
+ * that power. */
+#define ROUNDING_TO(places) ((real)((bits)3 << (MANTISSA - (places)-1)))
+
 /* The upper digits of x, which is within that size, a power of two: whole multiples of 2^-GRID of it. A sum of DIM
  * products of such multiples, each row of a map within its size, is exact. */
 #define GRID (MANTISSA / 2)
-#define GRID_OFF ((real)((bits)3 << (MANTISSA - GRID - 1)))
 static inline real upper_digits(real x, real size)
 {
-    const real big = size * GRID_OFF;
+    const real big = size * ROUNDING_TO(GRID);
     return (x + big) - big;
 }
 

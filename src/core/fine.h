@@ -198,15 +198,16 @@ static real rise_to(const sight *e, const body *k, const simplex *s, size_t memb
 }
 
 /* A bit for each of the list's eight corners from there on, or of all where they are fewer, times their grain: whether
- * it is not higher than that. */
+ * it is not higher than that along the way. */
 static inline unsigned not_above(const body *k, size_t from, vec way, real most)
 {
     const list *l = &k->list;
     lanes at[DIM], high[EIGHT / LANES];
-    unsigned r = 0;
-    for (size_t i = 0; i < l->count && l->count < EIGHT; i++)
-        r |= (unsigned)!(dot(mul(nth_of(l, i), k->grain), way) > most) << i;
-    if (l->count < EIGHT) return r;
+    if (l->count < EIGHT) {
+        unsigned r = 0;
+        for (size_t i = 0; i < l->count; i++) r |= (unsigned)!(dot(mul(nth_of(l, i), k->grain), way) > most) << i;
+        return r;
+    }
     const ways back = ways_of(mul(way, -1));
     for (size_t j = 0; j < EIGHT / LANES; j++) {
         load_lanes(l->v + (from + j * LANES) * l->step, l->step, at);

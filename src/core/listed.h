@@ -54,11 +54,12 @@ static inline void know_reach_listed(body *k)
     know_reach(k, k->list.reach);
 }
 
-/* 0: it is not of plain sizes. A number that is none may pass; then no corner has one, and nothing is told. */
-HOT int seize_plain(body *k, const shape *s, real by)
+/* Its map stretches by so much. 0: it is not of plain sizes. A number that is none may pass; then no corner has one,
+ * and nothing is told. */
+HOT int seize_plain(body *k, const shape *s, real grows)
 {
     k->support = s->support;
-    k->stretch = by;
+    k->stretch = grows;
     know_reach_listed(k);
     k->size = k->reach > TINY ? k->reach : 0;
     return !unruly(k->stretch) && (k->size == 0 || !unruly(k->size)) && s->radius >= 0 && s->radius < PLAIN;
@@ -153,12 +154,6 @@ HOT int farthest_plain(const body *k, vec dir, enum care care, vec *x)
     return farthest_seen(k, plain_direction(k, dir), care, x);
 }
 
-/* The corner of the difference that the points x and y make. */
-HOT vec corner_of_both(const difference *d, const vec *x, const vec *y)
-{
-    return corner_at_spots(d, duos_mapped(&d->maps, duos_mul(duos_at(x->c, y->c), d->grains)));
-}
-
 /* The corner least along v. */
 HOT int ask_plainly(difference *d, vec v, enum care care, vertex *p)
 {
@@ -166,7 +161,7 @@ HOT int ask_plainly(difference *d, vec v, enum care care, vertex *p)
     d->calls += 2;
     if (!farthest_seen(&d->a, seen_or_first(vec_of_a(dirs)), care, &p->x)) return 0;
     if (!farthest_seen(&d->b, seen_or_first(vec_of_b(dirs)), care, &p->y)) return 0;
-    p->w = corner_of_both(d, &p->x, &p->y);
+    p->w = corner_at_spots(d, duos_mapped(&d->maps, duos_mul(duos_at(p->x.c, p->y.c), d->grains)));
     return 1;
 }
 

@@ -131,6 +131,7 @@ static const real unturned[DIM * DIM] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 HOT const real *map_of(const body *k) { return k->posed ? k->m : unturned; }
 
+/* What is done with both at once takes their maps and grains from there. */
 HOT void lay_maps(difference *d) { d->maps = duo_map_at(map_of(&d->a), map_of(&d->b)); }
 HOT void lay_grains(difference *d) { d->grains = duo_of(d->a.grain, d->b.grain); }
 
@@ -148,6 +149,7 @@ HOT vec place(const body *k, vec x) { return mapped(k, mul(x, k->grain)); }
 /* The corner of the difference that two points make, times their grain; or as they are in the sets. */
 HOT vec corner_at(const difference *d, vec x, vec y) { return sub(mapped(&d->a, x), add(mapped(&d->b, y), d->c)); }
 
+/* The same of two that are placed, from the bodies' positions. */
 HOT vec corner_at_spots(const difference *d, duos at) { return sub(vec_of_a(at), add(vec_of_b(at), d->c)); }
 
 HOT vec corner_of(const difference *d, vec x, vec y) { return sub(place(&d->a, x), add(place(&d->b, y), d->c)); }

@@ -169,7 +169,7 @@ static inline twin length_to_twice(vec w, real l, vec low)
     return (twin){l, ((high - back.high) + (rest - back.low)) / (2 * l)};
 }
 
-/* What the bounds and the pair tell; upper is of the cores. */
+/* What the bounds and two points, placed from the bodies' positions, tell; upper is of the cores. */
 static inline void spell(const search *q, const shape *a, const shape *b, real upper, vec at_a, vec at_b, vec way,
                          result *r)
 {
@@ -181,12 +181,13 @@ static inline void spell(const search *q, const shape *a, const shape *b, real u
     r->reserved = 0;
 }
 
+/* The same of a pair. */
 static inline void spell_spots(const search *q, const shape *a, const shape *b, real upper, const spots *p, result *r)
 {
     spell(q, a, b, upper, vec_of_a(p->at), vec_of_b(p->at), p->w, r);
 }
 
-/* The same, and how far apart they are: as the pair is, which lost low to rounding. */
+/* And how far apart they are: as the pair is, far, which lost low to rounding. */
 static inline void spell_distance(const search *q, const shape *a, const shape *b, real far, real upper, const spots *p,
                                   vec low, result *r)
 {

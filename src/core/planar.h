@@ -24,7 +24,7 @@
 
 /* Added to a number and taken away again this times a bound of it, so many upper digits are left that a product of two
  * such, and the sum of two of these, is exact. */
-#define DIGITS_OFF ((real)((bits)3 << (MANTISSA - GRID - 1)))
+#define DIGITS_OFF ROUNDING_TO(GRID)
 
 /* So many doubts a bracket of the distance may be wide. */
 #define MOST_WIDE 4
@@ -401,8 +401,7 @@ HOT vec point_between(const cluster *p, unsigned from, unsigned to, real share, 
     return r;
 }
 
-/* A point of each body, times its grain, with what of it rounds away, and the corner of the difference that they make.
- */
+/* A point of each body, times its grain, and what of it rounds away; and the corner that they make. */
 typedef struct closest {
     vec x, x_low, y, y_low, w;
 } closest;
@@ -547,7 +546,7 @@ static APART int tell_finely(search *q, const scene *k, front own, const shape *
 /* By how much four numbers are off whole multiples of 2^-places of that power of two, and how much that is in all. */
 HOT fours odds_of(fours odds, fours x, int places, real power)
 {
-    const real off = (real)((bits)3 << (MANTISSA - places - 1)) * power;
+    const real off = ROUNDING_TO(places) * power;
     return sums_of(odds, sizes_of(differences_of(upper_of(x, fours_of(off, off, off, off)), x)));
 }
 

@@ -8,10 +8,11 @@
 
 typedef struct spots {
     duos x, low; /* in the bodies' own coordinates, times their grain, and what of that rounds away; */
-    duos at;     /* from their positions */
-    vec w;
+    duos at;     /* from their positions; */
+    vec w;       /* the corner */
 } spots;
 
+/* The points x themselves; m: the bodies' maps. */
 HOT spots spots_at(const difference *d, const duo_map *m, duos x)
 {
     spots p = {.x = x, .low = duos_both(axis(0, 0)), .at = duos_mapped(m, x)};
@@ -49,10 +50,8 @@ static inline spots last_spots(const search *q)
 
 /* ---- without rounding ---- */
 
-/* What adding and taking off again leaves the upper digits of sizes up to these. */
-HOT duo big_above(real a, real b) { return duo_of(above(a) * GRID_OFF, above(b) * GRID_OFF); }
-
-HOT duo upper_digits_of(duo x, duo big) { return duo_sub(duo_add(x, big), big); }
+/* For the upper digits of numbers up to these. */
+HOT duo big_above(real a, real b) { return duo_of(above(a) * ROUNDING_TO(GRID), above(b) * ROUNDING_TO(GRID)); }
 
 /* m (x + low): a part without rounding, and the rest. Cheaper than remainder_of, and not as exact, since no bound
  * depends on it, only the value. */

@@ -262,17 +262,12 @@ static int is_blurred(const spans *w)
 /* x is a whole multiple of 2^-places times that power of two. */
 static inline int is_short(real x, int places, real power)
 {
-    real big = (real)((bits)3 << (MANTISSA - places - 1)) * power;
+    real big = ROUNDING_TO(places) * power;
     return (x + big) - big == x;
 }
 
 /* By how much numbers are off such multiples, in all; big is as above. */
-HOT duo odds_of_both(duo odds, duo x, duo big)
-{
-    return duo_add(odds, duo_size(duo_sub(duo_sub(duo_add(x, big), big), x)));
-}
-
-HOT duo big_for(int places, duo power) { return duo_mul(duo_both((real)((bits)3 << (MANTISSA - places - 1))), power); }
+HOT duo odds_of_both(duo odds, duo x, duo big) { return duo_add(odds, duo_size(duo_sub(upper_digits_of(x, big), x))); }
 
 /* The bodies' maps are short, for their sizes; to which they came without rounding where sizes are plain. So are the
  * simplex's points of them, before such maps, where all sums are within twice that power, and they came there whole.
@@ -280,8 +275,9 @@ HOT duo big_for(int places, duo power) { return duo_mul(duo_both((real)((bits)3 
 static int are_parts_short(const difference *d, const simplex *s, real power)
 {
     const duo none = duo_both(0), levels = duo_of(level_of_map(&d->a), level_of_map(&d->b));
-    const duo grains = duo_of(d->a.grain, d->b.grain), of_map = big_for(SHORT, duo_div(duo_both(2), levels));
-    const duo of_point = big_for(SHORT, duo_mul(levels, duo_both(power / 2)));
+    const duo grains = duo_of(d->a.grain, d->b.grain), big = duo_both(ROUNDING_TO(SHORT));
+    const duo of_map = duo_mul(big, duo_div(duo_both(2), levels));
+    const duo of_point = duo_mul(big, duo_mul(levels, duo_both(power / 2)));
     const real *m_a = map_of(&d->a), *m_b = map_of(&d->b);
     const int n = d->a.asked == AS_BOX && d->b.asked == AS_BOX ? 1 : s->n;
     duo odds = none;
