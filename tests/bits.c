@@ -14,10 +14,10 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0x302e4bc3ce40ea1b};
+static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0x6cb6c9f4d43efe0e};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0x8a4dea949b440a8d};
+static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0xf3d182e529b0cbbd};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x3fedbf130f63baab, 0xba09590902f3f482, 0x8b5c732c7464e1d6};

@@ -303,9 +303,23 @@ static int prove(depth *d, real *upper)
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
 #define MOST_OPEN (4 * UNIT)
 
+/* Normal and points of the depth as it is known. The search's points, if the difference is flat to rounding. */
+static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum end *end)
+{
+    search *q = d->q;
+    /* of smooth shapes a bound from below is nearer than a surface that is not done */
+    d->near = *end == OPEN && !d->g->exact ? smaller(q->lower + 2 * q->d.doubt, upper) : upper;
+    if (d->settled) q->normal = d->normal;
+    if (flat || !d->floor) return;
+    if (stand_in_dip(d, weight, end) || *end == FAULT) return;
+    if (*end == OPEN) turn_to_normal(d);
+    if (d->settled || *end == OPEN) hand_over(d, weight);
+    else point_out(d, weight);
+}
+
 /* The cores meet, or nearly so: how deep. Where the difference is flat to rounding, the search's points, which are one
  * to rounding, are the contact. What curvature proves is worth its while where all digits are asked for, and only there
- * do bounds and normal stay together with it. */
+ * do bounds and normal stay together with it. What can't be settled anew stands as it is known by then. */
 static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
 {
     const goal *g = d->g;
@@ -327,18 +341,12 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (d->floor && d->floor->rough == ROUGH) sharpen_facet(&d->p, d->floor);
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     const int open = !prove(d, upper) && g->exact && end == STILL && *upper - d->q->lower > MOST_OPEN;
-    if ((g->tight || open) && !d->settled && d->floor && d->q->steps < g->max_steps) {
-        settle_anew(d, &end);
+    point_to(d, *upper, weight, flat, &end);
+    if ((g->tight || open) && !d->settled && end != FAULT && d->floor && d->q->steps < g->max_steps &&
+        settle_anew(d, &end) == STILL) {
         prove(d, upper);
+        point_to(d, *upper, weight, flat, &end);
     }
-    /* of smooth shapes a bound from below is nearer than a surface that is not done */
-    d->near = end == OPEN && !g->exact ? smaller(d->q->lower + 2 * d->q->d.doubt, *upper) : *upper;
-    if (d->settled) d->q->normal = d->normal;
-    if (flat || !d->floor) return end;
-    if (stand_in_dip(d, weight, &end) || end == FAULT) return end;
-    if (end == OPEN) turn_to_normal(d);
-    if (d->settled || end == OPEN) hand_over(d, weight);
-    else point_out(d, weight);
     return end;
 }
 

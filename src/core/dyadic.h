@@ -90,6 +90,14 @@ static void negate(dyadic *r)
     }
 }
 
+/* Takes the lowest limb off a sum, of either sign, and leaves what is carried. */
+static inline uint32_t take_limb(int64_t *sum)
+{
+    uint32_t r = (uint32_t)((uint64_t)*sum & 0xffffffffu);
+    *sum = (*sum - (int64_t)r) / 0x100000000;
+    return r;
+}
+
 #define MOST_TERMS 16
 
 /* The sum of so few numbers that a limb's sums never overflow. */
@@ -115,19 +123,12 @@ static dyadic total_of(const real *x, int n)
             sum[d[i].low - low + k] += x[i] < 0 ? -(int64_t)d[i].limb[k] : (int64_t)d[i].limb[k];
     for (int i = 0; i < r.n; i++) {
         carry += sum[i];
-        r.limb[i] = (uint32_t)((uint64_t)carry & 0xffffffffu);
-        carry = (carry - (int64_t)r.limb[i]) / 0x100000000;
+        r.limb[i] = take_limb(&carry);
     }
     r.sign = 1;
     if (carry < 0) negate(&r);
     strip(&r);
     return r;
-}
-
-/* Limb i, counted like low. */
-static inline uint32_t digit(const dyadic *a, int i)
-{
-    return i < a->low || i >= a->low + a->n ? 0 : a->limb[i - a->low];
 }
 
 /* a + b, or a - b with sign -1. */
@@ -142,14 +143,15 @@ static dyadic plus(const dyadic *a, const dyadic *b, int sign)
     r.n = end - r.low + 1;
     r.sign = a->sign;
     if (r.n > LIMBS + 2) return nought(1);
-    uint32_t flip = a->sign == sign * b->sign ? 0 : 0xffffffffu; /* a + ~b + 1 is the difference */
-    uint64_t carry = flip & 1;
-    for (int i = 0; i < r.n; i++) {
-        carry += (uint64_t)digit(a, r.low + i) + (digit(b, r.low + i) ^ flip);
-        r.limb[i] = (uint32_t)(carry & 0xffffffffu);
-        carry >>= 32;
+    memset(r.limb, 0, (size_t)r.n * sizeof *r.limb);
+    memcpy(&r.limb[a->low - r.low], a->limb, (size_t)a->n * sizeof *a->limb);
+    const int64_t by = a->sign == sign * b->sign ? 1 : -1;
+    int64_t carry = 0;
+    for (int i = b->low - r.low, k = 0; i < r.n && (k < b->n || carry != 0); i++, k++) {
+        carry += (int64_t)r.limb[i] + (k < b->n ? by * (int64_t)b->limb[k] : 0);
+        r.limb[i] = take_limb(&carry);
     }
-    if (flip && !carry) negate(&r);
+    if (carry < 0) negate(&r);
     strip(&r);
     return r;
 }
@@ -165,6 +167,7 @@ static dyadic times(const dyadic *a, const dyadic *b)
     for (int i = 0; i < r.n; i++) r.limb[i] = 0;
     for (int i = 0; i < a->n; i++) {
         uint64_t carry = 0;
+        if (a->limb[i] == 0) continue; /* most are, between large and tiny */
         for (int j = 0; j < b->n; j++) {
             carry += (uint64_t)a->limb[i] * b->limb[j] + r.limb[i + j];
             r.limb[i + j] = (uint32_t)(carry & 0xffffffffu);

@@ -137,10 +137,11 @@ static void take_normal(finish *f, const depth *d)
 #endif
 }
 
-/* Of a difference that is flat to rounding: STILL, it is so without rounding, and the origin in it; OPEN, it has a
- * surface now. FAULT: numbers are lost. */
+/* Of a difference that is flat to rounding: STILL, it is so without rounding, and the origin in it; CLOSE, it has a
+ * surface now. FAULT: numbers are lost. From one tip on, as of the others some may be the same without rounding. */
 static enum end span_out(depth *d, finish *f)
 {
+    d->p.tips = 1;
     while (d->p.tips <= DIM) {
         tip t;
         if (d->q->steps + 2 > d->g->max_steps) return OPEN;
@@ -174,8 +175,9 @@ static void settle_on(depth *d, finish *f, enum end grown, enum end *end)
     d->normal = mul(d->normal, 1 / length(d->normal));
 }
 
-/* Settles the depth from the polytope as it is; from the tips, where these are flat to rounding. */
-static APART void settle_depth(depth *d, enum end *end)
+/* Settles the depth from the polytope as it is; from the tips, where these are flat to rounding. Returns how the growth
+ * ended. */
+static APART enum end settle_depth(depth *d, enum end *end)
 {
     finish f;
     enum end grown = CLOSE;
@@ -185,18 +187,19 @@ static APART void settle_depth(depth *d, enum end *end)
     if (d->p.facets == 0) grown = span_out(d, &f);
     if (grown == CLOSE) grown = grow_on(d, &f, d->ends);
     settle_on(d, &f, grown, end);
+    return grown;
 }
 
-/* The same from a corner on, where rounding has spoiled the polytope or filled the workspace with what it left. */
-static APART void settle_anew(depth *d, enum end *end)
+/* The same from a corner on, where rounding has spoiled the polytope or filled the workspace with what it left. Of that
+ * nothing is left then. */
+static APART enum end settle_anew(depth *d, enum end *end)
 {
     polytope *p = &d->p;
     p->tip[0] = p->tip[d->floor->v[0]];
-    p->tips = 1;
     p->facets = 0;
     d->dropped = (tally){.least = REAL_MAX};
     d->floor = NULL;
-    settle_depth(d, end);
+    return settle_depth(d, end);
 }
 
 #endif
