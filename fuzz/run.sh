@@ -7,7 +7,7 @@
 #
 # With GJK_FUZZ_SEED set the fuzzers draw from that seed.
 # MINUTES is for all of them together, and may be a fraction; 5000x is 5000 executions of each, which with a seed and
-# nothing in build/fuzz/corpus are all but the same every time (without help from comparisons, which see addresses).
+# nothing in build/fuzz/corpus are all but the same every time (without help from memcmp, which sees addresses).
 # Each starts from the inputs in fuzz/corpus and from what earlier runs left in build/fuzz/corpus, and stops at its first
 # finding; with -k it goes on. Findings are kept in build/fuzz/found; with any the exit status is 1.
 set -eu
