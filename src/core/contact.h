@@ -301,7 +301,7 @@ static int prove(depth *d, real *upper)
 
 /* Of known corners a bracket that the surface does not close is as wide as the depth, and so is settled without
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
-#define MOST_OPEN (4 * UNIT)
+#define MOST_OPEN UNIT
 
 /* Normal and points of the depth as it is known. The search's points, if the difference is flat to rounding. */
 static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum end *end)

@@ -75,11 +75,14 @@ static inline real square_of_reach(const body *k, real grain)
  * more than UNIT (30 A + 30 B + 20 |c|), and that below this many roundings of the root of A^2 + B^2 + c^2. */
 #define GLANCE_DOUBT (48 * UNIT)
 
+/* The bound from below of a corner so high along a way, times the way's length; none, if squares of that underflow. */
+HOT real proven_along(real height, real l, real doubt) { return l > 1 / PLAIN ? height / l - doubt : -REAL_MAX; }
+
 /* The bounds of the cores. */
 HOT void weigh_evidence(evidence *e, vec v, real doubt)
 {
     e->l = length(v);
-    e->lower = e->height / e->l - doubt;
+    e->lower = proven_along(e->height, e->l, doubt);
     e->upper = length(e->w) + doubt;
 }
 

@@ -134,7 +134,7 @@ static inline int tell_corner(search *q, evidence *e, vec way, const shape *a, c
 /* What it proves, whatever becomes of it. */
 static inline void keep_evidence(search *q, const evidence *e)
 {
-    const real l = length(q->way), lower = e->height / l - q->d.doubt;
+    const real l = length(q->way), lower = proven_along(e->height, l, q->d.doubt);
     if (!(lower > q->lower)) return;
     q->lower = lower;
     EACH(q->normal.c[i] = 0 - q->way.c[i] / l);
