@@ -355,11 +355,13 @@ static void add_slant(bent *b, const limb *l, const bearing *v, int at)
     b->kink_off += 128 * UNIT * l->steep;
 }
 
-/* n is to lie along its axis, on the side of its disc. */
+/* n is to lie along its axis, on the side of its disc; on the other it counts for nothing. */
 static void add_base(bent *b, const limb *l, int at)
 {
+    const real up = dot(l->lean, b->n);
     add_edge(b, l, at);
-    b->height += dot(l->lean, b->n);
+    b->height += up;
+    count_off(b, -up, 16 * UNIT * l->steep);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += dot(l->lean, b->e[j]);
 }
 
