@@ -75,8 +75,12 @@ static inline real square_of_reach(const body *k, real grain)
  * more than UNIT (30 A + 30 B + 20 |c|), and that below this many roundings of the root of A^2 + B^2 + c^2. */
 #define GLANCE_DOUBT (48 * UNIT)
 
-/* The bound from below of a corner so high along a way, times the way's length; none, if squares of that underflow. */
-HOT real proven_along(real height, real l, real doubt) { return l > 1 / PLAIN ? height / l - doubt : -REAL_MAX; }
+/* The bound from below of a corner so high along a way, times its length l. A way so short that its squares have lost
+ * digits to underflow proves nothing. */
+HOT real proven_along(real height, real l, real doubt)
+{
+    return l * l > REAL_MIN / (2 * UNIT) ? height / l - doubt : -REAL_MAX;
+}
 
 /* The bounds of the cores. */
 HOT void weigh_evidence(evidence *e, vec v, real doubt)
