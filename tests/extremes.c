@@ -249,6 +249,36 @@ static void parts_of_unknown_reach(void **state)
     }
 }
 
+/* A segment, or a triangle, across the first axis there, around the axis. */
+static void place_across(body *k, draws *d, double size, double at)
+{
+    k->kind = POINTS;
+    k->count = DIM;
+    for (int i = 0; i < DIM; i++) {
+        k->v[i][0] = (real)at;
+        for (int j = 1; j < DIM; j++) {
+            double side = i == j ? 1 : i < j ? -1 : 0;
+            k->v[i][j] = (real)(side * (1 + (double)below(d, 8)) * size);
+        }
+    }
+    bind(k);
+}
+
+/* Two of them, so near that the coordinate between them vanishes in a frame of their size: it must not count as 0. */
+static void hair_beside_a_large_face(void **state)
+{
+    const int most = VARIANT_FLOAT ? 120 : 1000;
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        draws d = draws_from(27, 0, (uint64_t)n);
+        double size = ldexp(1, below(&d, 2 * most) - most), hair = (1 + (double)below(&d, 8)) * TINY;
+        fresh(NULL);
+        place_across(&a, &d, size, hair);
+        place_across(&b, &d, size, 0);
+        expect_exactly((quad)hair, NEVER);
+    }
+}
+
 /* ---- poses ---- */
 
 static void two_points(double x, double y, double map)
@@ -728,6 +758,7 @@ int main(void)
         cmocka_unit_test_setup(inner_map_underflows_direction, fresh),
         cmocka_unit_test_setup(nested_couples, fresh),
         cmocka_unit_test_setup(parts_of_unknown_reach, fresh),
+        cmocka_unit_test_setup(hair_beside_a_large_face, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
         cmocka_unit_test_setup(as_small_as_normal_numbers_get, fresh),
         cmocka_unit_test_setup(as_small_by_a_support_of_ones_own, fresh),
