@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xd50b19a25184ee2e, 0x28d3d5ed79a1d3bb, 0x6cb6c9f4d43efe0e};
+static const uint64_t known[3] = {0xb6f5c231fd37c7ea, 0x110c0ddfb618666b, 0x6a12aaba848c97a0};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x4d8e149c9571081f, 0xe1717285c2870b16, 0xf3d182e529b0cbbd};
+static const uint64_t known[3] = {0x347bab5996fb189b, 0xededad89e7a0b36c, 0xed1fbb420d6f3d3f};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x3fedbf130f63baab, 0xba09590902f3f482, 0x8b5c732c7464e1d6};
+static const uint64_t known[3] = {0x039657268ac2cd81, 0x84d0f2afc5d581e1, 0x97d9d953b3cb64d8};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x84445ba9f7b9a405, 0x19d20a8cf1dc7c39, 0x65e46cb382482268};
+static const uint64_t known[3] = {0xa42a92efecd42100, 0xe0640961a0668ae6, 0xcf78443c5971214a};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -420,6 +420,41 @@ static void another_unit_along_an_axis(void **state)
     expect_same("along an axis", 1000);
 }
 
+/* Of boxes in line, one without a pose, all corners across the axis are as near: the choice must not hang on the sign
+ * of a 0, which a pose changes, as does the way it is asked in units so small that squares underflow. */
+static void another_unit_of_boxes_in_line(void **state)
+{
+    const int least = LEAST_EXPONENT + 16;
+    static pair p, q;
+    (void)state;
+    for (uint64_t n = 0; n < 2000; n++) {
+        draws d = draws_from(13, 0, n);
+        const int along = below(&d, DIM), by = least + below(&d, 1 - least);
+        const int bare = below(&d, 2);
+        V(result) x, y;
+        for (int k = 0; k < 2; k++) {
+            body *b = k ? &p.b : &p.a;
+            start_body(b, BOX);
+            for (int i = 0; i < DIM; i++) {
+                b->half[i] = (real)((1 + (double)below(&d, 8)) / 8);
+            }
+        }
+        for (int i = 0; i < DIM; i++) {
+            real *at = bare ? &p.a.pose.p[i] : &p.b.pose.p[i];
+            *at = i == along ? (real)(below(&d, 2) ? 2.25 : -2.25) : below(&d, 2) ? 0 : -(real)0;
+        }
+        bind_pair(&p);
+        resize_pair(&q, &p, by, 0);
+        (bare ? &p.b : &p.a)->shape.pose = NULL;
+        (bare ? &q.b : &q.a)->shape.pose = NULL;
+        memset(&x, 0, sizeof x);
+        memset(&y, 0, sizeof y);
+        assert_int_equal(V(intersect)(&p.a.shape, &p.b.shape, NULL, &x), GJK_DECIDED);
+        assert_int_equal(V(intersect)(&q.a.shape, &q.b.shape, NULL, &y), GJK_DECIDED);
+        assert_int_equal(first_difference(&x, &y, by, 0), -1);
+    }
+}
+
 /* A capsule as the hull of two balls about points: the points have no size to round, in the smallest unit either. */
 static void capsules_in_the_smallest_unit(void **state)
 {
@@ -654,7 +689,7 @@ static void moved_without_rounding(void **state)
     for (walk w = {.seed = 11, .families = FAMILIES, .each = PAIRS}; next_pair(&w, &p);) {
         for (int j = 0; j < DIM; j++) {
             p.a.pose.p[j] = 0;
-            p.b.pose.p[j] = (real)(rint((double)p.b.pose.p[j] * grid) / grid + 0); /* -0 is another tie */
+            p.b.pose.p[j] = (real)(rint((double)p.b.pose.p[j] * grid) / grid); /* also -0, which is no other tie */
             if (fabs((double)p.b.pose.p[j]) > far) {
                 p.b.pose.p[j] = 1;
             }
@@ -686,6 +721,7 @@ int main(void)
         cmocka_unit_test(another_unit),
         cmocka_unit_test(another_unit_by_the_map),
         cmocka_unit_test(another_unit_along_an_axis),
+        cmocka_unit_test(another_unit_of_boxes_in_line),
         cmocka_unit_test(capsules_in_the_smallest_unit),
         cmocka_unit_test(subnormal_numbers),
         cmocka_unit_test(numbers_near_overflow),

@@ -112,10 +112,13 @@ static inline real size(real x)
 static inline real larger(real x, real y) { return x > y ? x : y; }
 static inline real smaller(real x, real y) { return x < y ? x : y; }
 
-/* x, not negative, with the sign of y; no branch, since signs of directions follow no pattern. */
+/* x, not negative, with the sign of y, of 0 whatever its own is; no branch, since signs of directions follow no
+ * pattern.
+ */
 static inline real signed_as(real x, real y)
 {
     bits b, s;
+    y += 0;
     memcpy(&b, &x, sizeof b);
     memcpy(&s, &y, sizeof s);
     b |= s & (bits)1 << (8 * sizeof s - 1);
