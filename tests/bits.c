@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xb6f5c231fd37c7ea, 0x110c0ddfb618666b, 0x6a12aaba848c97a0};
+static const uint64_t known[3] = {0xfdb7b81ca8b872fe, 0xe60408711a69a76f, 0x6a12aaba848c97a0};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x347bab5996fb189b, 0xededad89e7a0b36c, 0xed1fbb420d6f3d3f};
+static const uint64_t known[3] = {0xd9dd5cf298f42a87, 0xca8bf4d5f7c39414, 0xed1fbb420d6f3d3f};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x039657268ac2cd81, 0x84d0f2afc5d581e1, 0x97d9d953b3cb64d8};
+static const uint64_t known[3] = {0xc565649fd59346bd, 0xf8915dc2351e37c5, 0x97d9d953b3cb64d8};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xa42a92efecd42100, 0xe0640961a0668ae6, 0xcf78443c5971214a};
+static const uint64_t known[3] = {0x51b78e52b145b7d0, 0xad6de691a65f8cc2, 0xcf78443c5971214a};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

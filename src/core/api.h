@@ -195,10 +195,12 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
 
 /* Where the search has come to its end on contact, and the bracket of the cores straddles it, finds out on which side
  * they are, if rounding allows. 0: a support's answer was none. */
-static int tell(search *q, const goal *g, real *upper, enum end *end)
+static int tell(search *q, const goal *g, real *upper, real weight[], enum end *end)
 {
     if ((*end != STILL && *end != INSIDE) || q->lower > 0 || *upper < 0 || *upper < g->within * q->d.scale) return 1;
-    enum end told = probe(q, g->max_steps, upper);
+    simplex around;
+    enum end told = probe(q, g->max_steps, upper, &around);
+    if (told == WITHIN && !g->exact) stand_among(q, &around, weight);
     if (told == OPEN) *end = OPEN;
     return told != FAULT;
 }
@@ -432,7 +434,7 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
     int tried = still && g->exact && !o->tight && !met && is_doubtful(q, g, upper);
     int settled = tried && settle_near(q, a, b, g, weight, &upper, r);
     if (q->told) return STILL;
-    if (end == FAULT || (probed && !settled && !tell(q, g, &upper, &end)) || !(q->lower <= upper)) return FAULT;
+    if (end == FAULT || (probed && !settled && !tell(q, g, &upper, weight, &end)) || !(q->lower <= upper)) return FAULT;
     if (g->sign_only && q->s.n > DIM && upper < 0) upper = cover_point(q, weight, upper);
     bracket(r, &q->d, q->lower, upper, a, b);
     if (still && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);

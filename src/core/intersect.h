@@ -33,18 +33,25 @@ static void move(search *q, vec c)
     q->sidesteps = 0;
 }
 
+/* The points of the bodies that the simplex's weights make, times their grain, as one corner. */
+static vertex point_made(const search *q, const real weight[DIM + 1])
+{
+    return (vertex){.x = blend(&q->s, weight, offsetof(vertex, x), q->d.a.grain),
+                    .y = blend(&q->s, weight, offsetof(vertex, y), q->d.b.grain)};
+}
+
 /* probe with a ball of radius r; STILL: it is too small for the noise of the corners. */
-static enum end probe_ball(search *q, real r, int max_steps, real *upper)
+static enum end probe_ball(search *q, real r, int max_steps, real *upper, simplex *around)
 {
     search p = *q;
     real weight[DIM + 1];
     goal g = {.within = (real)0.75 * r, .abs_tol = -1, .early = 1, .max_steps = max_steps};
     enum end end = WITHIN;
-    for (int k = 0; k <= DIM && end == WITHIN; k++) {
+    for (int k = 0; k <= DIM; k++) {
         vec t = mul(outpost(k), r);
         move(&p, add(q->d.c, t));
-        if (certify(&p, weight) < g.within) continue;
-        if (p.s.n > DIM) end = INSIDE;
+        if (certify(&p, weight) < g.within) end = WITHIN;
+        else if (p.s.n > DIM) end = INSIDE;
         else if (p.steps >= max_steps) end = OPEN;
         else end = look(&p) ? descend(&p, &g) : FAULT;
         if (end == INSIDE && room(&p.s) > p.d.doubt) end = WITHIN;
@@ -54,6 +61,9 @@ static enum end probe_ball(search *q, real r, int max_steps, real *upper)
             q->lower = lower;
             q->normal = p.normal;
         }
+        if (end != WITHIN) break;
+        certify(&p, weight);
+        around->slot[k] = point_made(&p, weight);
     }
     q->steps = p.steps;
     q->d.calls = p.d.calls;
@@ -61,13 +71,37 @@ static enum end probe_ball(search *q, real r, int max_steps, real *upper)
     return end;
 }
 
+/* The simplex of the points by the ball's corners holds the origin with room all around: it tells a point of both where
+ * that of the search, too thin or too far off, does not. These are no corners: the cache is to stay, and what is left
+ * to do is to place them, of which the grain is now 1. */
+static void stand_among(search *q, simplex *around, real weight[DIM + 1])
+{
+    real share[DIM + 1];
+    around->n = DIM + 1;
+    for (int k = 0; k <= DIM; k++) {
+        vertex *p = &around->slot[k];
+        around->at[k] = k;
+        p->w = corner_at(&q->d, p->x, p->y);
+    }
+    weigh(around, share);
+    const real least = smaller(smaller(share[0], share[1]), smaller(share[2], share[DIM]));
+    const vec off = blend(around, share, offsetof(vertex, w), 1), was = blend(&q->s, weight, offsetof(vertex, w), 1);
+    if (!(least >= 0 && dot(off, off) < dot(was, was))) return;
+    q->s = *around;
+    q->d.a.grain = q->d.b.grain = 1;
+    q->kept = 1;
+    memcpy(weight, share, sizeof share);
+}
+
 /* The search has ended on its origin. WITHIN: the sets overlap, by -upper at least. BEYOND: q's lower bound has risen
  * to no more than 4 balls below 0. OPEN: max_steps are used up. STILL: no ball told. The least ball is of 2 doubt,
- * since any point of it can be certified no better than to 1; one so small may drown in the noise of the corners. */
-static enum end probe(search *q, int max_steps, real *upper)
+ * since any point of it can be certified no better than to 1; one so small may drown in the noise of the corners. Of a
+ * ball told, around are the points by its corners. */
+static enum end probe(search *q, int max_steps, real *upper, simplex *around)
 {
     enum end end = STILL;
-    for (int r = 2; end == STILL && r <= 128; r *= 8) end = probe_ball(q, (real)r * q->d.doubt, max_steps, upper);
+    for (int r = 2; end == STILL && r <= 128; r *= 8)
+        end = probe_ball(q, (real)r * q->d.doubt, max_steps, upper, around);
     return end;
 }
 
