@@ -311,7 +311,7 @@ static int settle(difference *d, real slack)
     c *= d->scale;
     d->lost = 0;
     if (d->wild) { /* products that underflow here, and in the supports where reaches are faint */
-        if (whole < REAL_MIN && far_a + far_b + c > 0) d->lost += 64 * TINY * d->scale;
+        if (whole < REAL_MIN) d->lost += 64 * TINY * d->scale;
         if (faint(far_a)) d->lost += 64 * TINY * d->scale * larger(1, d->a.stretch);
         if (faint(far_b)) d->lost += 64 * TINY * d->scale * larger(1, d->b.stretch);
     }

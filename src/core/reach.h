@@ -19,7 +19,7 @@ static real surveyed(support_fn *support, const void *data, real slack)
             far.c[j] = larger(size(x.c[j]) + slack, far.c[j]);
         }
     }
-    return peak(far) > 0 ? spread(far) * (1 + 16 * UNIT) + 4 * TINY : 0;
+    return spread(far) * (1 + 16 * UNIT) + 4 * TINY;
 }
 
 #endif
