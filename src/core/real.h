@@ -112,9 +112,8 @@ static inline real size(real x)
 static inline real larger(real x, real y) { return x > y ? x : y; }
 static inline real smaller(real x, real y) { return x < y ? x : y; }
 
-/* x, not negative, with the sign of y, of 0 whatever its own is; no branch, since signs of directions follow no
- * pattern.
- */
+/* x, not negative, with the sign of y; no branch, since signs of directions follow no pattern. -0 counts as 0: which of
+ * them a direction has depends on the way by which it was reckoned. */
 static inline real signed_as(real x, real y)
 {
     bits b, s;

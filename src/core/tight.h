@@ -452,54 +452,54 @@ static wide core_distance(const finish *f)
     return f->squared ? wide_root(wide_quotient(over, under)) : wide_quotient(over, wide_root(under));
 }
 
-/* A length, and by how much of itself it may be off. */
-typedef struct gauged {
+/* A length, its sign apart, and by how much of itself it may be off. */
+typedef struct estimate {
     wide size;
     int sign;
     real off;
-} gauged;
+} estimate;
 
 /* What formulas of a few operations on twins are good to. */
 #define FORMULA_OFF (128 * UNIT * UNIT)
 
 /* d - r, each good to 32 UNIT^2 of itself; of numbers near each other it tells little. */
-static gauged difference_in_twins(wide d, wide r)
+static estimate difference_in_twins(wide d, wide r)
 {
     wide sum = wide_sum(d, r), gap = wide_sum(d, (wide){{-r.t.high, -r.t.low}, r.exponent});
-    gauged g = {gap, gap.t.high < 0 ? -1 : 1, REAL_MAX};
+    estimate e = {gap, gap.t.high < 0 ? -1 : 1, REAL_MAX};
     real whole = raised(sum.t.high, sum.exponent - gap.exponent);
-    if (g.sign < 0) g.size.t = (twin){-gap.t.high, -gap.t.low};
-    if (g.size.t.high > 0) g.off = FORMULA_OFF * (whole / g.size.t.high);
-    return g;
+    if (e.sign < 0) e.size.t = (twin){-gap.t.high, -gap.t.low};
+    if (e.size.t.high > 0) e.off = FORMULA_OFF * (whole / e.size.t.high);
+    return e;
 }
 
 /* The distance less the radii, d - r, by (d^2 - r^2) / (d + r), where the difference is without rounding; where that
  * has too many digits, in twins. */
-static gauged separation(const finish *f, real radius_a, real radius_b)
+static estimate separation(const finish *f, real radius_a, real radius_b)
 {
     dyadic a = dyadic_of(radius_a), b = dyadic_of(radius_b), r = plus(&a, &b, 1);
     wide d = core_distance(f);
-    if (r.sign == 0) return (gauged){d, f->over.sign, FORMULA_OFF};
+    if (r.sign == 0) return (estimate){d, f->over.sign, FORMULA_OFF};
     dyadic over = f->squared ? f->over : times(&f->over, &f->over), rr = times(&r, &r);
     rr = times(&rr, &f->under);
     dyadic squares = plus(&over, &rr, -1);
     if (squares.lost) return difference_in_twins(d, wide_of(&r));
     wide under = wide_of(&f->under), sum = wide_sum(d, wide_of(&r));
     under = (wide){product_of_twins(under.t, sum.t), under.exponent + sum.exponent};
-    return (gauged){wide_quotient(wide_of(&squares), under), squares.sign, FORMULA_OFF};
+    return (estimate){wide_quotient(wide_of(&squares), under), squares.sign, FORMULA_OFF};
 }
 
 /* Its bracket, each end the nearest number its way, or the one next to that; the value between. 0: it is not known to
  * all digits, or too large to be told. */
-static int round_off(gauged g, real ends[3])
+static int round_off(estimate e, real ends[3])
 {
-    const wide s = g.size;
-    if (!(g.off <= UNIT / 4)) return 0;
-    real error = g.off * s.t.high;
+    const wide s = e.size;
+    if (!(e.off <= UNIT / 4)) return 0;
+    real error = e.off * s.t.high;
     real low = below(s.t.high, s.t.low - error, s.exponent), high = -below(-s.t.high, -s.t.low - error, s.exponent);
-    ends[0] = g.sign < 0 ? -high : low;
-    ends[1] = raised(s.t.high, s.exponent) * (real)g.sign;
-    ends[2] = g.sign < 0 ? -low : high;
+    ends[0] = e.sign < 0 ? -high : low;
+    ends[1] = raised(s.t.high, s.exponent) * (real)e.sign;
+    ends[2] = e.sign < 0 ? -low : high;
     return bounded(ends[0]) && bounded(ends[2]);
 }
 

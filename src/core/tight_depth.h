@@ -64,7 +64,7 @@ static int enclose_depth(finish *f, const depth *d, real ends[3])
 {
     dyadic a = dyadic_of(d->a->radius), b = dyadic_of(d->b->radius), r = plus(&a, &b, 1);
     wide sum = wide_sum(core_distance(f), wide_of(&r));
-    return !f->lost && round_off((gauged){sum, sum.t.high > 0 ? -1 : 0, FORMULA_OFF}, ends);
+    return !f->lost && round_off((estimate){sum, sum.t.high > 0 ? -1 : 0, FORMULA_OFF}, ends);
 }
 
 /* Above the height of the plane, in the frame. */
