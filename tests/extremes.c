@@ -279,6 +279,43 @@ static void hair_beside_a_large_face(void **state)
     }
 }
 
+/* The corners 3 e_i, each a hair off in so many binary places that the squares of the distance, less those of a ball's
+ * radius, are more than the exact finish holds. A hair is no part of the truth that shows; the radius is any share of
+ * the distance, up to all of it. */
+static void radius_off_long_numbers(void **state)
+{
+    const quad far = 3 / quad_sqrt((quad)DIM);
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        draws d = draws_from(28, 0, (uint64_t)n);
+        const int share = below(&d, 60);
+        V(options) o = default_options();
+        V(result) r;
+        fresh(NULL);
+        a.kind = POINTS;
+        a.count = DIM;
+        for (int i = 0; i < DIM; i++) {
+            for (int j = 0; j < DIM; j++) {
+                const real hair = (real)((1 + (double)below(&d, 8)) * TINY);
+                a.pose.m[DIM * i + j] = i == j ? 1 : hair;
+                a.v[i][j] = i == j ? 3 : DIM == 2 ? hair : 0;
+            }
+        }
+        bind(&a);
+        b.kind = POINTS;
+        b.count = 1;
+        bind(&b);
+        b.shape.radius = (real)((double)far * (1 - ldexp(between(&d, 0.5, 1), -share)));
+        const quad gap = far - (quad)b.shape.radius, off = (quad)1e-33;
+        o.tight = 1;
+        assert_true(V(distance)(&a.shape, &b.shape, &o, &r) >= 0);
+        assert_true((quad)r.lower <= positive(gap) + off && positive(gap) - off <= (quad)r.upper);
+        if (share < (VARIANT_FLOAT ? 10 : 38)) {
+            assert_true(r.upper - r.lower <= 2 * REAL_EPSILON * r.value);
+        }
+    }
+}
+
 /* ---- poses ---- */
 
 static void two_points(double x, double y, double map)
@@ -759,6 +796,7 @@ int main(void)
         cmocka_unit_test_setup(nested_couples, fresh),
         cmocka_unit_test_setup(parts_of_unknown_reach, fresh),
         cmocka_unit_test_setup(hair_beside_a_large_face, fresh),
+        cmocka_unit_test_setup(radius_off_long_numbers, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
         cmocka_unit_test_setup(as_small_as_normal_numbers_get, fresh),
         cmocka_unit_test_setup(as_small_by_a_support_of_ones_own, fresh),
