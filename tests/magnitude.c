@@ -455,6 +455,34 @@ static void another_unit_of_boxes_in_line(void **state)
     }
 }
 
+/* Two points with radii, on one another or apart along an axis by a number of few digits: to the last bit the sum of a
+ * few numbers, which may be a tie between two more. */
+static void another_unit_of_points_with_radii(void **state)
+{
+    static pair p, q;
+    (void)state;
+    for (uint64_t n = 0; n < 100 * PAIRS; n++) {
+        draws d = draws_from(14, 0, n);
+        const int by = below(&d, MOST_EXPONENT) - MOST_EXPONENT / 2;
+        V(result) x, y;
+        for (int k = 0; k < 2; k++) {
+            body *b = k ? &p.b : &p.a;
+            start_body(b, DIM == 3 && below(&d, 2) ? TRIANGLE : POINTS);
+            b->count = b->kind == POINTS;
+            b->shape.radius = (real)between(&d, 0.5, 2);
+        }
+        p.b.pose.p[0] = (real)below(&d, 5);
+        bind_pair(&p);
+        resize_pair(&q, &p, by, 0);
+        memset(&x, 0, sizeof x);
+        memset(&y, 0, sizeof y);
+        x.status = V(penetration)(&p.a.shape, &p.b.shape, NULL, &x);
+        y.status = V(penetration)(&q.a.shape, &q.b.shape, NULL, &y);
+        assert_true(x.status >= 0);
+        assert_int_equal(first_difference(&x, &y, by, 0), -1);
+    }
+}
+
 /* A capsule as the hull of two balls about points: the points have no size to round, in the smallest unit either. */
 static void capsules_in_the_smallest_unit(void **state)
 {
@@ -722,6 +750,7 @@ int main(void)
         cmocka_unit_test(another_unit_by_the_map),
         cmocka_unit_test(another_unit_along_an_axis),
         cmocka_unit_test(another_unit_of_boxes_in_line),
+        cmocka_unit_test(another_unit_of_points_with_radii),
         cmocka_unit_test(capsules_in_the_smallest_unit),
         cmocka_unit_test(subnormal_numbers),
         cmocka_unit_test(numbers_near_overflow),

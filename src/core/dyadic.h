@@ -179,28 +179,32 @@ static dyadic times(const dyadic *a, const dyadic *b)
     return r;
 }
 
-/* The number's size, to a relative UNIT^2 or so, as a twin times 2^*exponent; the twin is in [1/2, 1), or 0. */
+/* 32 of the number's binary places, so many below where limb i begins. */
+static inline uint32_t places_of(const dyadic *a, int i, int below)
+{
+    const uint32_t next = i > 0 ? a->limb[i - 1] : 0;
+    return below == 0 ? a->limb[i] : a->limb[i] << below | next >> (32 - below);
+}
+
+/* The number's size, to a relative UNIT^2 or so, as a twin times 2^*exponent; the twin is in [1/2, 1), or 0. In any
+ * unit the same twin: its places are counted from the first that is not 0, not from where limbs begin. */
 static twin leading(const dyadic *a, int *exponent)
 {
     twin r = {0, 0};
     real weight = 1;
-    int end = a->n > 5 ? a->n - 5 : 0;
+    int end = a->n > 5 ? a->n - 5 : 0, noughts = 0;
     *exponent = 0;
     if (a->n == 0) return r;
+    while (!(a->limb[a->n - 1] << noughts >> 31)) noughts++;
     for (int i = a->n - 1; i >= end; i--) { /* by halves, which every format holds */
+        const uint32_t places = places_of(a, i, noughts);
         weight *= (real)0x1p-16;
-        gather(&r, (twin){(real)(a->limb[i] >> 16) * weight, 0});
+        gather(&r, (twin){(real)(places >> 16) * weight, 0});
         weight *= (real)0x1p-16;
-        gather(&r, (twin){(real)(a->limb[i] & 0xffff) * weight, 0});
+        gather(&r, (twin){(real)(places & 0xffff) * weight, 0});
     }
-    *exponent = 32 * (a->low + a->n);
-    r = sum_of(r.high, r.low);
-    while (r.high < (real)0.5) {
-        r.high *= 2;
-        r.low *= 2;
-        --*exponent;
-    }
-    return r;
+    *exponent = 32 * (a->low + a->n) - noughts;
+    return sum_of(r.high, r.low);
 }
 
 #endif
