@@ -254,6 +254,14 @@ static void point_out(depth *d, real weight[DIM + 1])
 /* The bound from below that the dip gave is the best one, to a few roundings. */
 static inline int bounds_as_well(const search *q, const dip *f) { return f->below >= q->lower - 8 * UNIT; }
 
+/* Its way is the direction that gave the best one, to what rounding hides. */
+static inline int leads_as_well(const search *q, const dip *f)
+{
+    return length(sub(f->n, q->normal)) <= 4 * q->d.doubt;
+}
+
+static inline int goes_with_bound(const search *q, const dip *f) { return bounds_as_well(q, f) || leads_as_well(q, f); }
+
 /* The dip that normal and points go with: the lowest, if that is as low as any direction asked; of some that are
  * equally low, to what rounding hides, the one near the direction that has given the best bound. NULL: none. FAULT, and
  * nothing else: a support's answer was none. */
@@ -263,11 +271,11 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     const dip *f = lowest_dip(d);
     search *q = d->q;
     if (!f || !(f->below >= q->lower - 4 * q->d.doubt)) return NULL;
-    if (bounds_as_well(q, f)) return f;
+    if (goes_with_bound(q, f)) return f;
     if (q->steps >= d->g->max_steps || !find_least(&d->dips->bulk, q->normal, NULL, &b)) return NULL;
     const int taken = take_dip(d, &b, other);
     if (taken < 0) *end = FAULT;
-    return taken > 0 && bounds_as_well(q, other) ? other : NULL;
+    return taken > 0 && goes_with_bound(q, other) ? other : NULL;
 }
 
 /* Normal and points go with a dip, if one is as low as any direction asked. 0: they don't, and all tips are corners
@@ -283,7 +291,7 @@ static int stand_in_dip(depth *d, real weight[DIM + 1], enum end *end)
         q->s.n = 1;
         weight[0] = 1;
         q->v = f->corner.w;
-        q->normal = f->n;
+        if (bounds_as_well(q, f)) q->normal = f->n;
         return 1;
     }
     for (int i = 0; i < count_dips(d); i++)
