@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xfdb7b81ca8b872fe, 0xe60408711a69a76f, 0x6a12aaba848c97a0};
+static const uint64_t known[3] = {0xf9098aab8740d192, 0xe4fae9cd1fa3ad6c, 0xe53047c3dee090d8};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xd9dd5cf298f42a87, 0xca8bf4d5f7c39414, 0xed1fbb420d6f3d3f};
+static const uint64_t known[3] = {0xa4860649e74b14fa, 0x25eab6585e33b7d1, 0x13c930b6b29ba4c8};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xc565649fd59346bd, 0xf8915dc2351e37c5, 0x97d9d953b3cb64d8};
+static const uint64_t known[3] = {0xe047f70b7e3a8ad1, 0x26a45446b3747f78, 0xeaa022fd783c0e0b};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x51b78e52b145b7d0, 0xad6de691a65f8cc2, 0xcf78443c5971214a};
+static const uint64_t known[3] = {0x3c77ccfc94d3551f, 0x8a92668dd94259ef, 0xb4900ad9f40ac844};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -316,6 +316,43 @@ static void radius_off_long_numbers(void **state)
     }
 }
 
+/* A box that its map flattens to a line but for rounding, with b on it or next to it, and one or both of them a couple,
+ * so that no finish knows all corners. The generous reach of couples makes the box small in the pair's frame, and with
+ * it the weights' errors that are to be seen. */
+static void flattened_box_in_couples(void **state)
+{
+    double worst = 0;
+    (void)state;
+    for (uint64_t k = 0; k < DRAWS; k++) {
+        static truth t;
+        draws d = draws_from(29, 0, k);
+        V(result) r;
+        fresh(NULL);
+        part[0].kind = BOX;
+        const double along = between(&d, -DIM, DIM);
+        for (int i = 0; i < DIM; i++) {
+            part[0].half[i] = 1;
+            for (int j = 0; j < DIM; j++) {
+                const double off = below(&d, 2) ? 0 : ldexp(between(&d, 0, 1), -below(&d, VARIANT_FLOAT ? 24 : 53));
+                part[0].pose.m[i * DIM + j] = (real)(-1 - off);
+            }
+            part[0].pose.p[i] = (real)(along + between(&d, -8, 8) * (double)REAL_EPSILON);
+        }
+        bind(&part[0]);
+        couple(&a, SUM, &part[0], &part[1]);
+        couple(&b, SUM, &part[2], &part[3]);
+        if (k % 2) {
+            a = part[0];
+            bind(&a);
+        }
+        assert_true(V(distance)(&a.shape, &b.shape, NULL, &r) >= 0);
+        find_truth(&t, &a, &b, 1);
+        worst = fmax(worst, (double)(quad_abs((quad)r.value - positive(t.upper)) / ((quad)REAL_EPSILON / 2 * t.scale)));
+    }
+    printf("%-6s flattened couples: error at most %.2f u * scale\n", VARIANT, worst);
+    assert_true(worst <= 8);
+}
+
 /* ---- poses ---- */
 
 static void two_points(double x, double y, double map)
@@ -797,6 +834,7 @@ int main(void)
         cmocka_unit_test_setup(parts_of_unknown_reach, fresh),
         cmocka_unit_test_setup(hair_beside_a_large_face, fresh),
         cmocka_unit_test_setup(radius_off_long_numbers, fresh),
+        cmocka_unit_test_setup(flattened_box_in_couples, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
         cmocka_unit_test_setup(as_small_as_normal_numbers_get, fresh),
         cmocka_unit_test_setup(as_small_by_a_support_of_ones_own, fresh),

@@ -59,6 +59,50 @@ static inline int edge(vec p, vec q, real leeway, vec *v, real weight[2])
     return 1;
 }
 
+static inline void swap(int *a, int *b)
+{
+    const int c = *a;
+    *a = *b;
+    *b = c;
+}
+
+/* Brings the largest coefficient of the edges and rows from k on, in their order, to place k; 0: all are 0. */
+static real bring_largest(const vec edge[DIM], int row[DIM], int column[DIM], int k)
+{
+    int r = k, c = k;
+    for (int i = k; i < DIM; i++)
+        for (int j = k; j < DIM; j++)
+            if (size(edge[column[j]].c[row[i]]) > size(edge[column[c]].c[row[r]])) r = i, c = j;
+    swap(&row[k], &row[r]);
+    swap(&column[k], &column[c]);
+    return edge[column[k]].c[row[k]];
+}
+
+/* The shares of the edges that add up to the way: by elimination, of the largest coefficient first, so that they miss
+ * it by roundings of the edges and the way, however narrow what these span; determinants do not. Across what they do
+ * not span at all they miss it. */
+static vec shares_of(vec edge[DIM], vec way)
+{
+    int row[DIM], column[DIM], n = 0;
+    vec r = axis(0, 0);
+    for (int i = 0; i < DIM; i++) row[i] = column[i] = i;
+    for (; n < DIM; n++) {
+        const real pivot = bring_largest(edge, row, column, n);
+        if (!(size(pivot) > 0)) break;
+        for (int i = n + 1; i < DIM; i++) {
+            const real part = edge[column[n]].c[row[i]] / pivot;
+            for (int j = n; j < DIM; j++) edge[column[j]].c[row[i]] -= part * edge[column[j]].c[row[n]];
+            way.c[row[i]] -= part * way.c[row[n]];
+        }
+    }
+    while (n-- > 0) {
+        real left = way.c[row[n]];
+        for (int j = n + 1; j < DIM; j++) left -= edge[column[j]].c[row[n]] * r.c[column[j]];
+        r.c[column[n]] = left / edge[column[n]].c[row[n]];
+    }
+    return r;
+}
+
 /* By how much a walk from p along e can bring the squared distance down; 0 where e leads away. */
 static inline real gain(vec p, vec e)
 {

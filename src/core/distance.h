@@ -87,6 +87,8 @@ typedef struct search {
     int met;             /* proven by the exact finish, which steps in where rounding leaves it open */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */
+    simplex around;      /* full, around the origin, and too thin to prove it; n is 0: none was */
+    unsigned borrowed_around;
 #if DIM == 2
     find found; /* where polygons looked at by themselves were left to the walk */
 #endif
@@ -124,18 +126,27 @@ static inline void weigh_walked(const search *q, real weight[DIM + 1])
     normalize(weight, q->s.n);
 }
 
+/* More than the roundings of a blend of the simplex's corners, which may be small in the frame: those of couples are
+ * several times what the bodies are. */
+static real noise_of_blend(const simplex *s)
+{
+    real far = 0;
+    for (int k = 0; k < s->n; k++) far = larger(peak(point(s, k)), far);
+    return 4 * UNIT * far;
+}
+
 /* In a narrow simplex the weights are coarse, and their corner x off v by a slip across it; what the slip says of them
  * is taken back, as long as that brings the corner nearer. */
-static vec take_back(const search *q, vec x, real weight[DIM + 1])
+static vec take_back(const simplex *s, vec v, vec x, real noise, real weight[DIM + 1])
 {
     for (int i = 0; i < 3; i++) {
         real better[DIM + 1];
-        vec slip = sub(x, q->v);
-        if (!(peak(slip) > 4 * UNIT)) break;
-        change(&q->s, slip, better);
-        for (int k = 0; k < q->s.n; k++) better[k] = weight[k] - better[k];
-        normalize(better, q->s.n);
-        vec y = blend(&q->s, better, offsetof(vertex, w), 1);
+        vec slip = sub(x, v);
+        if (!(peak(slip) > noise)) break;
+        change(s, slip, better);
+        for (int k = 0; k < s->n; k++) better[k] = weight[k] - better[k];
+        normalize(better, s->n);
+        vec y = blend(s, better, offsetof(vertex, w), 1);
         if (!(dot(y, y) < dot(x, x))) break;
         memcpy(weight, better, sizeof better);
         x = y;
@@ -144,30 +155,52 @@ static vec take_back(const search *q, vec x, real weight[DIM + 1])
 }
 
 /* A simplex too narrow for that is no better than its sides: takes the weights of the best side, if that is nearer. */
-static vec take_side(const search *q, vec x, real weight[DIM + 1])
+static vec take_side(const simplex *s, vec v, vec x, real noise, real weight[DIM + 1])
 {
-    if (q->s.n == 1 || !(peak(sub(x, q->v)) > 4 * UNIT)) return x;
-    simplex side = q->s;
+    if (s->n == 1 || !(peak(sub(x, v)) > noise)) return x;
+    simplex side = *s;
     real better[DIM + 1];
-    nearest_of_all(&side, 0, 0, 0);
+    vec of_side = nearest_of_all(&side, 0, 0, 0);
     weigh(&side, better);
-    vec y = blend(&side, better, offsetof(vertex, w), 1);
+    vec y = take_back(&side, of_side, blend(&side, better, offsetof(vertex, w), 1), noise, better);
     if (!(dot(y, y) < dot(x, x))) return x;
-    for (int i = 0; i < q->s.n; i++) {
+    for (int i = 0; i < s->n; i++) {
         weight[i] = 0;
-        for (int k = 0; k < side.n; k++) weight[i] += side.at[k] == q->s.at[i] ? better[k] : 0;
+        for (int k = 0; k < side.n; k++) weight[i] += side.at[k] == s->at[i] ? better[k] : 0;
     }
     return y;
 }
 
-/* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. */
-static real certify(const search *q, real weight[DIM + 1])
+/* A combination of corners is in A - B: its length bounds the separation from above, whatever the weights. v is the
+ * simplex's nearest point; corners are off by no more than the doubt. */
+static real certify_by(const simplex *s, vec v, real doubt, real weight[DIM + 1])
 {
-    weigh(&q->s, weight);
-    if (q->s.n == 1) return length(point(&q->s, 0)) * (1 + 8 * UNIT) + q->d.doubt;
-    vec x = blend(&q->s, weight, offsetof(vertex, w), 1);
-    x = take_side(q, take_back(q, x, weight), weight);
-    return length(x) * (1 + 8 * UNIT) + q->d.doubt;
+    weigh(s, weight);
+    if (s->n == 1) return length(point(s, 0)) * (1 + 8 * UNIT) + doubt;
+    vec x = blend(s, weight, offsetof(vertex, w), 1);
+    const real noise = noise_of_blend(s);
+    x = take_side(s, v, take_back(s, v, x, noise, weight), noise, weight);
+    return length(x) * (1 + 8 * UNIT) + doubt;
+}
+
+static real certify(const search *q, real weight[DIM + 1]) { return certify_by(&q->s, q->v, q->d.doubt, weight); }
+
+/* The same at the end of a search. A full simplex that was set aside holds the origin all the same, to rounding, even
+ * if there is no room to prove: the point that it holds there may be nearer than all that was found without it. */
+static real certify_end(search *q, const goal *g, enum end *end, real weight[DIM + 1])
+{
+    real other[DIM + 1], upper = certify(q, weight);
+    if (*end != STILL || g->exact || q->around.n == 0 || q->lower > 0) return upper;
+    const real held = certify_by(&q->around, axis(0, 0), q->d.doubt, other);
+    if (!(held < upper)) return upper;
+    q->s = q->around;
+    q->borrowed = q->borrowed_around;
+    q->v = axis(0, 0);
+    q->vv = q->inside = 0;
+    q->weighed = 0;
+    memcpy(weight, other, sizeof other);
+    *end = INSIDE;
+    return held;
 }
 
 /* A blend of the corners' x or y, times their grain, to more digits than one number holds: the first corner, and the
@@ -292,6 +325,23 @@ static void project(search *q, int whole)
     q->vv = dot(q->v, q->v);
 }
 
+/* A full simplex gives way to its part that is nearest the origin: of some that are as near, to what rounding hides,
+ * one with the newest corner, which was lower than all without it. */
+static void give_way(search *q)
+{
+    const int newest = q->s.at[DIM];
+    simplex other = q->s;
+    project(q, 0);
+    for (int i = 0; i < q->s.n; i++)
+        if (q->s.at[i] == newest) return;
+    const vec v = nearest_of_all(&other, 1u << DIM, 0, 0);
+    const real vv = dot(v, v);
+    if (!(vv < q->vv + 16 * UNIT * root(q->vv))) return;
+    q->s = other;
+    q->v = v;
+    q->vv = vv;
+}
+
 /* What w of a corner lost to rounding. */
 static vec lost_of(const search *q, const vertex *p)
 {
@@ -356,7 +406,11 @@ static inline enum end consider(search *q, const goal *g)
     if (q->s.n > DIM) {
         q->inside = room_inside(q);
         if (q->inside > q->d.doubt || q->sidesteps++ >= SIDESTEPS) return INSIDE;
-        project(q, 0);
+        enum end end = g->early ? judge(q, g) : OPEN;
+        if (end != OPEN) return end;
+        q->around = q->s;
+        q->borrowed_around = q->borrowed;
+        give_way(q);
     }
     if (vanished(q)) return STILL;
     return g->early ? judge(q, g) : OPEN;
@@ -441,14 +495,14 @@ static int coarse(const search *q, real upper) { return upper - larger(q->lower,
  * that is left to an exact finish. upper and weight are those of the simplex that is left. */
 static enum end sharpen_on(search *q, const goal *g, enum end end, real *upper, real weight[DIM + 1])
 {
-    *upper = certify(q, weight);
+    *upper = certify_end(q, g, &end, weight);
     for (int i = 0; i < SHARPENINGS && end == STILL && coarse(q, *upper) && !g->exact; i++) {
         if (!sharpen(q, weight)) break;
         if (q->steps >= g->max_steps) return OPEN;
         if (!look(q)) return FAULT;
         q->repeated = 0;
         end = descend(q, g);
-        *upper = certify(q, weight);
+        *upper = certify_end(q, g, &end, weight);
     }
     return end;
 }
@@ -473,6 +527,7 @@ static void blank(search *q)
     q->borrowed = 0;
     q->kept = 0;
     q->weighed = 0;
+    q->around.n = 0;
 }
 
 /* A direction along which the simplex's first corner is likely the least: v, tilted away from the others. */

@@ -22,6 +22,21 @@
 #include "simplex3.h"
 #endif
 
+#define ALL_CORNERS ((2u << DIM) - 1)
+
+/* Whether the origin is in the full simplex, however narrow: determinants of such a one are noise, its corners' shares
+ * in the origin are those of a simplex that is next to it. */
+static int holds_narrowly(const simplex *s)
+{
+    vec p = point(s, DIM), edge[DIM];
+    real last = 1;
+    int r = 1;
+    for (int i = 0; i < DIM; i++) edge[i] = sub(point(s, i), p);
+    vec share = shares_of(edge, mul(p, -1));
+    EACH(last -= share.c[i]; r &= share.c[i] > 0);
+    return r && last > 0;
+}
+
 /* The least of all parts of the simplex that have the required corners, tried one by one: slower than nearest, and free
  * of assumptions. The whole of it counts as a part only if asked for. Drops the other corners.
  *
@@ -36,7 +51,9 @@ static vec nearest_of_all(simplex *s, unsigned required, int whole, real noise)
     for (unsigned mask = 1; mask < end; mask++) {
         vec p;
         real weight[DIM + 1];
-        if ((mask & required) != required || !part(s, mask, noise > 0 ? 16 * UNIT : 0, &p, weight)) continue;
+        if ((mask & required) != required) continue;
+        if (!part(s, mask, noise > 0 ? 16 * UNIT : 0, &p, weight) && !(mask == ALL_CORNERS && holds_narrowly(s)))
+            continue;
         real d = dot(p, p);
         for (int i = 0; i < s->n; i++) d -= mask >> i & 1 ? noise : 0;
         if (best != 0 && !(d < least)) continue;

@@ -62,9 +62,8 @@ static void change(const simplex *s, vec way, real weight[3])
     vec p = point(s, 0), a = sub(point(s, 1), p);
     for (int i = 0; i < 3; i++) weight[i] = 0;
     if (s->n == 3) {
-        vec b = sub(point(s, 2), p);
-        weight[1] = cross(way, b) / cross(a, b);
-        weight[2] = cross(a, way) / cross(a, b);
+        vec edge[2] = {a, sub(point(s, 2), p)}, share = shares_of(edge, way);
+        memcpy(weight + 1, share.c, sizeof share.c);
     } else if (s->n == 2) {
         weight[1] = dot(way, a) / dot(a, a);
     }

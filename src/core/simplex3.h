@@ -9,8 +9,8 @@
  * choose between two ways to the same point; no bracket depends on them. Measured in docs/bounds.md.
  *
  * Its normal is off by UNIT over the sine. Below SLENDER that shows along the longer side, and is taken out there.
- * Below NARROW the rest shows too, and the triangle is projected onto side by side: v is then square to the longer side
- * to a UNIT, but off by a UNIT of the corners, however near it is. */
+ * Below NARROW the rest shows too, and the triangle is projected onto side by side: v is then square to both to what
+ * the narrower direction rounds, but off by a UNIT of the corners, however near it is. */
 #define SLENDER ((real)1e-2) /* times |a|^2 |b|^2, against |a x b|^2: an angle of 0.1 */
 #define NARROW ((real)1e-5)  /* likewise: 0.003 */
 
@@ -53,6 +53,7 @@ static void across(vec p, vec along, vec aside, vec *v, real weight[3])
     weight[1] = share - weight[2] * lean;
     weight[0] = 1 - weight[1] - weight[2];
     *v = add(foot, mul(up, weight[2]));
+    if (uu > 0) *v = sub(*v, mul(up, dot(*v, up) / uu));
     *v = sub(*v, mul(along, dot(*v, along) / ll));
 }
 
@@ -171,11 +172,8 @@ static void change(const simplex *s, vec way, real weight[4])
     sides t = sides_of(edge_to(s, 1), edge_to(s, s->n > 2 ? 2 : 1));
     for (int i = 0; i < 4; i++) weight[i] = 0;
     if (s->n == 4) {
-        vec c = sub(point(s, 3), point(s, 0));
-        real whole = dot(t.n, c);
-        weight[1] = dot(way, cross(t.b, c)) / whole;
-        weight[2] = dot(way, cross(c, t.a)) / whole;
-        weight[3] = dot(way, t.n) / whole;
+        vec edge[3] = {t.a, t.b, edge_to(s, 3)}, share = shares_of(edge, way);
+        memcpy(weight + 1, share.c, sizeof share.c);
     } else if (has_normal(&t)) {
         weight[1] = dot(t.n, cross(way, t.b)) / t.nn;
         weight[2] = dot(t.n, cross(t.a, way)) / t.nn;
