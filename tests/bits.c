@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xf9098aab8740d192, 0xe4fae9cd1fa3ad6c, 0xe53047c3dee090d8};
+static const uint64_t known[3] = {0x86eac374a042fa7e, 0xd6c2d763333b6dc6, 0x05cd69d5af144bda};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xa4860649e74b14fa, 0x25eab6585e33b7d1, 0x13c930b6b29ba4c8};
+static const uint64_t known[3] = {0xa673c274bdb2bf1e, 0xf5118fa22bd75133, 0x6193ca2e22071b0a};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xe047f70b7e3a8ad1, 0x26a45446b3747f78, 0xeaa022fd783c0e0b};
+static const uint64_t known[3] = {0x01cba7fd523b9dbf, 0xf727fb68b830d817, 0xb6992569adca698a};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x3c77ccfc94d3551f, 0x8a92668dd94259ef, 0xb4900ad9f40ac844};
+static const uint64_t known[3] = {0xc7b21c2d4098d42b, 0x67dbb8debb2350af, 0x04843c04b58ee27d};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

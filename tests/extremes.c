@@ -350,7 +350,7 @@ static void flattened_box_in_couples(void **state)
         worst = fmax(worst, (double)(quad_abs((quad)r.value - positive(t.upper)) / ((quad)REAL_EPSILON / 2 * t.scale)));
     }
     printf("%-6s flattened couples: error at most %.2f u * scale\n", VARIANT, worst);
-    assert_true(worst <= 8);
+    assert_true(worst <= 6);
 }
 
 /* ---- poses ---- */
