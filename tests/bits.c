@@ -14,10 +14,10 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x86eac374a042fa7e, 0xd6c2d763333b6dc6, 0x05cd69d5af144bda};
+static const uint64_t known[3] = {0x1ba4ec93317f43ca, 0xf5a9ec6ba5342382, 0x05cd69d5af144bda};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xa673c274bdb2bf1e, 0xf5118fa22bd75133, 0x6193ca2e22071b0a};
+static const uint64_t known[3] = {0x7ef28d06a8b4f6a2, 0x0104c0c8ef2aed9f, 0x6193ca2e22071b0a};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x01cba7fd523b9dbf, 0xf727fb68b830d817, 0xb6992569adca698a};

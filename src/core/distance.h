@@ -197,7 +197,7 @@ static real certify_end(search *q, const goal *g, enum end *end, real weight[DIM
     q->borrowed = q->borrowed_around;
     q->v = axis(0, 0);
     q->vv = q->inside = 0;
-    q->weighed = 0;
+    q->weighed = q->pending = 0;
     memcpy(weight, other, sizeof other);
     *end = INSIDE;
     return held;
