@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x1ba4ec93317f43ca, 0xf5a9ec6ba5342382, 0x05cd69d5af144bda};
+static const uint64_t known[3] = {0x532e2c10d2166a5f, 0x91ffa147225b1507, 0x47e8b708d846e925};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x7ef28d06a8b4f6a2, 0x0104c0c8ef2aed9f, 0x6193ca2e22071b0a};
+static const uint64_t known[3] = {0x7ef28d06a8b4f6a2, 0x0104c0c8ef2aed9f, 0xf7c20fb2e744e569};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x01cba7fd523b9dbf, 0xf727fb68b830d817, 0xb6992569adca698a};
+static const uint64_t known[3] = {0xa994d8cb177bbb90, 0x8f924e800d7a486d, 0x28a4aa6f9c1cafdf};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xc7b21c2d4098d42b, 0x67dbb8debb2350af, 0x04843c04b58ee27d};
+static const uint64_t known[3] = {0xc7b21c2d4098d42b, 0x67dbb8debb2350af, 0x2d36585db3e60724};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -140,6 +140,21 @@ static inline void bind(body *b)
     }
 }
 
+/* The shape behind a support that the library does not know, as callers write them. */
+static inline real own_support(const void *data, const real *dir, real *point)
+{
+    const V(shape) *s = data;
+    return s->support(s->data, dir, point);
+}
+
+static inline V(shape) hidden(const V(shape) * s)
+{
+    V(shape) r = *s;
+    r.support = own_support;
+    r.data = s;
+    return r;
+}
+
 /* Both the origin, where a support of the test's own is to take its place. */
 static inline void start_points(body *a, body *b)
 {

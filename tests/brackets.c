@@ -310,19 +310,10 @@ static V(options) draw_options(draws *d, V(cache) * own, const V(result) * first
 }
 
 /* The same bodies behind supports that the library does not know. */
-static real own_support(const void *data, const real *dir, real *point)
-{
-    const V(shape) *s = data;
-    return s->support(s->data, dir, point);
-}
-
 static void one_pair_of_own(tally *s, const pair *p)
 {
-    V(shape) a = p->a.shape, b = p->b.shape;
+    const V(shape) a = hidden(&p->a.shape), b = hidden(&p->b.shape);
     V(result) r;
-    a.support = b.support = own_support;
-    a.data = &p->a.shape;
-    b.data = &p->b.shape;
     now.options = default_options();
     memset(&r, 0, sizeof r);
     now.query = "distance by supports of one's own";

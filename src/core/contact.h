@@ -311,12 +311,23 @@ static int prove(depth *d, real *upper)
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
 #define MOST_OPEN UNIT
 
+/* Where the value is in the middle between there and the bound from below. Of smooth shapes a bound from below is
+ * nearer than a surface that is not done. Where the two bounds are no farther apart than what is charged for roundings,
+ * which is more to the one from above, the value is the lowest facet's own height. */
+static real near_of(const depth *d, real upper, enum end end)
+{
+    const search *q = d->q;
+    if (d->g->exact) return upper;
+    if (end == OPEN) return smaller(q->lower + 2 * q->d.doubt, upper);
+    if (!d->floor || !(upper - q->lower <= 2 * q->d.doubt + q->d.slack + 64 * UNIT)) return upper;
+    return smaller(-2 * d->floor->height - q->lower, upper);
+}
+
 /* Normal and points of the depth as it is known. The search's points, if the difference is flat to rounding. */
 static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum end *end)
 {
     search *q = d->q;
-    /* of smooth shapes a bound from below is nearer than a surface that is not done */
-    d->near = *end == OPEN && !d->g->exact ? smaller(q->lower + 2 * q->d.doubt, upper) : upper;
+    d->near = near_of(d, upper, *end);
     if (d->settled) q->normal = d->normal;
     if (flat || !d->floor) return;
     if (stand_in_dip(d, weight, end) || *end == FAULT) return;
