@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x532e2c10d2166a5f, 0x91ffa147225b1507, 0x47e8b708d846e925};
+static const uint64_t known[3] = {0x6042cf54bb203445, 0x9646ebdbf0665691, 0x2920992c77077127};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x7ef28d06a8b4f6a2, 0x0104c0c8ef2aed9f, 0xf7c20fb2e744e569};
+static const uint64_t known[3] = {0xa0389aeec5aad3f2, 0x8058033194350f4c, 0xf7c20fb2e744e569};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xa994d8cb177bbb90, 0x8f924e800d7a486d, 0x28a4aa6f9c1cafdf};
+static const uint64_t known[3] = {0xe1f17ecdd6c26965, 0x9e61ce633c903aea, 0xc60b84bb3f434b9d};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xc7b21c2d4098d42b, 0x67dbb8debb2350af, 0x2d36585db3e60724};
+static const uint64_t known[3] = {0x35a193a837239e3b, 0x5f7e6ea150591944, 0x6dc62d16e85ba91d};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

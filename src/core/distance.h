@@ -126,13 +126,13 @@ static inline void weigh_walked(const search *q, real weight[DIM + 1])
     normalize(weight, q->s.n);
 }
 
-/* A rounding of a blend of the simplex's corners, which may be small in the frame: those of couples are several times
- * what the bodies are. */
+/* Two roundings of a blend of the simplex's corners, which may be small in the frame: those of couples are several
+ * times what the bodies are. To make it one costs more, and nothing comes of it. */
 static real noise_of_blend(const simplex *s)
 {
     real far = 0;
     for (int k = 0; k < s->n; k++) far = larger(peak(point(s, k)), far);
-    return UNIT * far;
+    return 2 * UNIT * far;
 }
 
 /* In a narrow simplex the weights are coarse, and their corner x off v by a slip across it; what the slip says of them
