@@ -311,6 +311,10 @@ static int prove(depth *d, real *upper)
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
 #define MOST_OPEN UNIT
 
+/* What both bounds of a facet are charged for roundings at most, but for the doubt and the slack, in a frame where
+ * heights are up to 2: 8 (2 + 2) by floor_of, and 5 (2 + 2 sqrt(3)) by raise. */
+#define CHARGED (64 * UNIT)
+
 /* Where the value is in the middle between there and the bound from below. Of smooth shapes a bound from below is
  * nearer than a surface that is not done. Where the two bounds are no farther apart than what is charged for roundings,
  * which is more to the one from above, the value is the lowest facet's own height. */
@@ -319,7 +323,7 @@ static real near_of(const depth *d, real upper, enum end end)
     const search *q = d->q;
     if (d->g->exact) return upper;
     if (end == OPEN) return smaller(q->lower + 2 * q->d.doubt, upper);
-    if (!d->floor || !(upper - q->lower <= 2 * q->d.doubt + q->d.slack + 64 * UNIT)) return upper;
+    if (!d->floor || !(upper - q->lower <= 2 * q->d.doubt + q->d.slack + CHARGED)) return upper;
     return smaller(-2 * d->floor->height - q->lower, upper);
 }
 

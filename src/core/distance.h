@@ -185,8 +185,8 @@ static real certify_by(const simplex *s, vec v, real doubt, real weight[DIM + 1]
 
 static real certify(const search *q, real weight[DIM + 1]) { return certify_by(&q->s, q->v, q->d.doubt, weight); }
 
-/* The same at the end of a search. A full simplex that was set aside holds the origin all the same, to rounding, even
- * if there is no room to prove: the point that it holds there may be nearer than all that was found without it. */
+/* The same at the end of a search. A full simplex without room holds the origin all the same, to rounding, even if
+ * that is not proven: the point that it holds there may be nearer than all that was found without it. */
 static real certify_end(search *q, const goal *g, enum end *end, real weight[DIM + 1])
 {
     real other[DIM + 1], upper = certify(q, weight);
