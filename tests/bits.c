@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x6042cf54bb203445, 0x9646ebdbf0665691, 0x2920992c77077127};
+static const uint64_t known[3] = {0xec92b576ba308883, 0x2632791e1830972c, 0x86a8096b2ac44837};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xa0389aeec5aad3f2, 0x8058033194350f4c, 0xf7c20fb2e744e569};
+static const uint64_t known[3] = {0xa0389aeec5aad3f2, 0x8058033194350f4c, 0x1990f31dd3eace77};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xe1f17ecdd6c26965, 0x9e61ce633c903aea, 0xc60b84bb3f434b9d};
+static const uint64_t known[3] = {0xef23d42743698bfc, 0x8aab4d708229e9b1, 0x5b4ab5d8d6118b7b};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x35a193a837239e3b, 0x5f7e6ea150591944, 0x6dc62d16e85ba91d};
+static const uint64_t known[3] = {0xe18daf502c62f87b, 0x4e4dcc667154d06c, 0x447ec6e1dc668494};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

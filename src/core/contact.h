@@ -113,7 +113,7 @@ static tip level_tip(const depth *d, vec v)
         c.x = corner_aside(&d->q->d.a, d->a, d->floor->n, mul(v, -1));
         c.y = corner_aside(&d->q->d.b, d->b, mul(d->floor->n, -1), v);
         c.w = corner_of(&d->q->d, c.x, c.y);
-        return tip_of(&c, 0);
+        return tip_of(&c);
     }
     for (int k = 0; k < d->p.tips; k++)
         if (is_level(d, &d->p.tip[k]) && dot(v, d->p.tip[k].w) < dot(v, best.w)) best = d->p.tip[k];
@@ -315,16 +315,26 @@ static int prove(depth *d, real *upper)
  * heights are up to 2: 8 (2 + 2) by floor_of, and 5 (2 + 2 sqrt(3)) by raise. */
 #define CHARGED (64 * UNIT)
 
-/* Where the value is in the middle between there and the bound from below. Of smooth shapes a bound from below is
- * nearer than a surface that is not done. Where the two bounds are no farther apart than what is charged for roundings,
- * which is more to the one from above, the value is the lowest facet's own height. */
+/* Minus how deep it is, as the lowest facet has it, where that is a bound: its own height, if nothing lies beyond it;
+ * else between that and the least height seen. What bounds are charged for roundings is left out. */
+static real depth_of_floor(const depth *d, enum end end, real seen)
+{
+    const real height = -fine_floor(&d->p, d->floor).high;
+    return end == STILL ? height : (height + seen) / 2;
+}
+
+/* Where the value is in the middle between there and the bound from below. The cores are hardly deeper than the least
+ * height seen, which is their depth at a dip; where that is below 0 they are apart, as far as the search's points are.
+ */
 static real near_of(const depth *d, real upper, enum end end)
 {
     const search *q = d->q;
-    if (d->g->exact) return upper;
-    if (end == OPEN) return smaller(q->lower + 2 * q->d.doubt, upper);
-    if (!d->floor || !(upper - q->lower <= 2 * q->d.doubt + q->d.slack + CHARGED)) return upper;
-    return smaller(-2 * d->floor->height - q->lower, upper);
+    const int bounded = end != OPEN && d->floor && upper - q->lower <= 2 * q->d.doubt + q->d.slack + CHARGED;
+    if (d->g->exact || (end != OPEN && !(d->least < REAL_MAX))) return upper;
+    real value = larger(-d->least, q->lower + q->d.doubt);
+    if (value > 0) value = larger(value, upper - q->d.doubt);
+    else if (bounded && !lowest_dip(d)) value = depth_of_floor(d, end, value);
+    return 2 * value - q->lower;
 }
 
 /* Normal and points of the depth as it is known. The search's points, if the difference is flat to rounding. */
@@ -353,9 +363,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (!g->exact && !g->early && !are_bodies_aligned(&d->q->d, d->a, d->b) &&
         know_bulk(&own.bulk, &d->q->d, d->a, d->b))
         d->dips = &own;
-    d->p.fine = g->exact;
     d->p.whole = &d->q->d;
-    d->p.noise = (d->p.fine ? 32 * UNIT : 4) * UNIT;
     enum end end = first_surface(d);
     int flat = d->p.facets == 0;
     if (end == OPEN && !flat) end = deepen(d);

@@ -53,9 +53,10 @@ typedef struct depth {
     dips *dips;    /* NULL: it is not known what heights are made of */
     vec along;     /* the direction asked last, of known corners to all digits, */
     real below;    /*   and the bound from below that it gave */
-    real least;    /* of known corners the least height seen of A - B, by rounded numbers, the way along which, */
-    vec least_way; /*   and the corner there */
+    real least;    /* the least height seen of A - B, by rounded numbers, */
+    vec least_way; /*   of known corners also the way along which, and the corner there */
     vec least_at;
+    int closings;       /* so often the lowest facet has been as good as rounding can prove */
     outlook sight;      /* and what is looked along */
     real near;          /* the value is in the middle between there and the bound from below */
     int rested;         /* a walk down came to where heights are the least nearby; */
@@ -65,10 +66,10 @@ typedef struct depth {
     vec normal;         /* that goes with it */
 } depth;
 
-static tip tip_of(const vertex *c, int known)
+static tip tip_of(const vertex *c)
 {
     tip t = {c->w, axis(0, 0), c->x, c->y};
-    if (known) t.low.c[0] = UNTOLD;
+    t.low.c[0] = UNTOLD;
     return t;
 }
 
@@ -82,7 +83,8 @@ static int seek_along(depth *d, vec n, tip *t)
     const int plain = d->g->exact && !f->wild && f->a.asked != BY_CALL && f->b.asked != BY_CALL;
     d->q->steps++;
     if (!(plain ? ask_plainly(f, v, HASTY, &c) : ask_with(f, v, d->g->exact ? HASTY : CAREFUL, &c))) return 0;
-    *t = tip_of(&c, d->g->exact);
+    *t = tip_of(&c);
+    if (!d->g->exact) d->least = smaller(dot(n, t->w), d->least);
     return 1;
 }
 
@@ -398,7 +400,7 @@ static int is_contact(depth *d)
     if (d->q->lower >= -2 * d->q->d.doubt && is_flush(d, d->q->normal)) return 1;
     if (s->n != DIM) return 0;
     for (int i = 0; i < DIM; i++) {
-        own[i] = tip_of(corner(s, i), 1);
+        own[i] = tip_of(corner(s, i));
         t[i] = &own[i];
     }
     vec n = own_normal(d, t);
@@ -504,7 +506,7 @@ static void take_simplex(depth *d)
     const simplex *s = &d->q->s;
     const int spread = s->n > DIM && is_spread(s);
     for (int i = 0; i < s->n; i++) {
-        tip t = tip_of(corner(s, i), d->g->exact);
+        tip t = tip_of(corner(s, i));
         if (i > 0 && !spread && !(length(square_to_tips(p, way_to(&p->tip[0], &t))) > OFF)) continue;
         p->tip[p->tips++] = t;
     }
@@ -527,12 +529,25 @@ static enum end first_surface(depth *d)
 
 /* ---- the proof ---- */
 
+static inline int count_dips(const depth *d) { return d->dips ? d->dips->n : 0; }
+
+/* Whether a tip of the facet is that of a dip, which is no corner. */
+static int stands_out(const depth *d, const facet *f)
+{
+    for (int i = 0; i < count_dips(d); i++)
+        for (int k = 0; k < DIM && d->dips->at[i].planted; k++)
+            if (same(d->p.tip[f->v[k]].w, d->dips->at[i].at)) return 1;
+    return 0;
+}
+
 /* On which side of the facet's plane the origin is: above 0, the inner; below 0, the outer, or numbers are lost. */
 static int inner_side(const depth *d, const facet *f)
 {
     dyadics w[DIM];
     for (int i = 0; i < DIM; i++) {
-        dyadics a = placed(d->a, d->p.tip[f->v[i]].x), b = placed(d->b, d->p.tip[f->v[i]].y);
+        const tip *t = &d->p.tip[f->v[i]];
+        dyadics a = placed(d->a, t->x, d->g->exact ? 1 : d->q->d.a.unit);
+        dyadics b = placed(d->b, t->y, d->g->exact ? 1 : d->q->d.b.unit);
         w[i] = difference_of(&a, &b);
     }
 #if DIM == 2
@@ -621,7 +636,7 @@ static void count_angle(depth *d, facet *f, tally *t)
         t->certain += area / far * (f->height / far) / (DIM == 2 ? 4 : 4 * far);
         return;
     }
-    int side = d->g->exact ? inner_side(d, f) : -1;
+    int side = stands_out(d, f) ? -1 : inner_side(d, f);
     real floor = larger(f->height, t->least); /* its own normal may lead away from the origin */
     t->proven += side > 0;
     if (side < 0) t->doubtful += floor > 0 ? (spread(n) + slop) / floor / (DIM == 2 ? 1 : floor) : REAL_MAX;
@@ -648,8 +663,6 @@ static int goes_around(depth *d, real least)
     return 0;
 }
 
-static inline int count_dips(const depth *d) { return d->dips ? d->dips->n : 0; }
-
 static inline dip *lowest_dip(const depth *d) { return d->dips ? d->dips->best : NULL; }
 
 /* Whether the dip's tip is of no account to what is to be proven: that A - B is as high as r along all ways. */
@@ -662,6 +675,7 @@ static int pull_back(polytope *p, dip *f)
     while (at < p->tips && !same(p->tip[at].w, f->at)) at++;
     if (f->frayed || at == p->tips) return 0;
     p->tip[at].w = f->corner.w;
+    p->tip[at].low.c[0] = UNTOLD;
     for (int k = 0; k < p->facets; k++)
         for (int i = 0; i < DIM; i++)
             if (p->facet[k].v[i] == at) sharpen_facet(p, &p->facet[k]);
@@ -701,13 +715,20 @@ static int bound(depth *d, real *upper)
 
 /* ---- growth ---- */
 
+/* Whether the depth, which lies between the facet's height and the least height seen, is known as well as rounding can
+ * tell. Where that takes many facets, so often one more is looked beyond all the same. */
+static int has_closed_in(depth *d, const facet *f)
+{
+    return d->least - f->height <= 2 * UNIT + d->q->d.slack || d->closings++ == 8;
+}
+
 /* With what the facet's own direction proves, lower, the bracket is as narrow as asked, or as rounding allows where the
  * corners are not known without it. */
-static int close_enough(const depth *d, const facet *f, real lower)
+static int close_enough(depth *d, const facet *f, real lower)
 {
     const goal *g = d->g;
     real doubt = d->q->d.doubt, upper = -f->height + doubt;
-    if (!g->exact && upper - lower <= 3 * doubt + d->q->d.slack) return 1;
+    if (!g->exact && upper - lower <= 3 * doubt + d->q->d.slack && has_closed_in(d, f)) return 1;
     if (!(g->abs_tol > 0) && !(g->rel_tol > 0)) return 0;
     real asked = g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
     /* a facet that rounding may take below the origin bounds nothing from above */
@@ -728,7 +749,7 @@ static int is_beyond(depth *d, facet *f, tip *t)
     for (int i = 0; i < DIM; i++)
         if (same(d->p.tip[f->v[i]].x, c.x) && same(d->p.tip[f->v[i]].y, c.y)) return 0;
     c.w = corner_of(&d->q->d, c.x, c.y);
-    *t = tip_of(&c, 1);
+    *t = tip_of(&c);
     return sees(&d->p, f, t) && !is_known(&d->p, t);
 }
 

@@ -42,6 +42,10 @@ enum rough { SHARP, ROUGH, POLISHED };
  * origin it is turned the same way without these roundings, if it is higher than CLEAR (docs/bounds.md). */
 enum form { THIN, LEAN, WIDE };
 
+/* What rounding may have put into a tip, to all that is known of it; and without that. */
+#define NOISE (32 * UNIT * UNIT)
+#define ROUGH_NOISE (32 * UNIT)
+
 /* What is so far from a wide facet's plane is on that side of it, whichever corner is asked. */
 #define CLEAR ((real)0x1p14 * UNIT)
 
@@ -60,9 +64,7 @@ typedef struct polytope {
     facet *facet;
     seam *rim; /* of what is gone */
     int tips, facets, rims, most_tips, most_facets;
-    real noise;                                                /* what rounding may have put into a tip */
-    int fine;                                                  /* tips can be known to twice the digits */
-    const difference *whole;                                   /*   of this */
+    const difference *whole;                                   /* tips are its corners, known to twice the digits */
     int (*side)(const void *of, const facet *f, const tip *t); /* on which side of the facet t is, without rounding */
     const void *of;                                            /* NULL, both: that is not asked */
     int without_rounding;                                      /* nothing but side tells sides */
@@ -173,19 +175,15 @@ static void fine_reach(const tip *from, const tip *to, twin r[DIM])
     }
 }
 
-/* The square of how tall a facet must be, to be wide for the noise of its corners. */
-static real tall_enough(const polytope *p)
-{
-    real tall = p->noise * ((real)0x1p-12 / UNIT);
-    return tall * tall;
-}
+/* How tall a facet must be, to be wide for that noise of its corners. */
+#define TALL(noise) ((noise) * ((real)0x1p-12 / UNIT))
 
 #if DIM == 2
 /* Square to the edge, to the right of it. */
 static vec outward(const polytope *p, const facet *f, enum form *form)
 {
     vec e = reach_over(&p->tip[f->v[0]], &p->tip[f->v[1]]);
-    *form = dot(e, e) > tall_enough(p) ? WIDE : LEAN;
+    *form = dot(e, e) > TALL(NOISE) * TALL(NOISE) ? WIDE : LEAN;
     return (vec){{e.c[1], -e.c[0]}};
 }
 
@@ -238,13 +236,13 @@ static vec outward(const polytope *p, const facet *f, enum form *form)
     vec a = e[k], b = mul(e[(k + 2) % 3], -1), n = cross(a, b);
     real nn = dot(n, n), size = dot(a, a) * dot(b, b);
     *form = WIDE;
-    if (4096 * nn > longest * longest && nn > tall_enough(p) * longest) return n;
+    if (4096 * nn > longest * longest && nn > TALL(NOISE) * TALL(NOISE) * longest) return n;
     if (!(nn > (real)0.25 * size)) { /* a narrow one, which rounded edges leave to noise */
         twin fine[3];
         fine_outward(p, f, k, fine);
         for (int i = 0; i < 3; i++) n.c[i] = fine[i].high;
     }
-    int thin = !(dot(n, n) > 64 * UNIT * UNIT * UNIT * size) || !(length(n) > p->noise * root(longest));
+    int thin = !(dot(n, n) > 64 * UNIT * UNIT * UNIT * size) || !(length(n) > NOISE * root(longest));
     *form = thin ? THIN : LEAN;
     return n;
 }
@@ -286,12 +284,10 @@ static APART void sharpen_facet(polytope *p, facet *f)
 #endif
 }
 
-/* How tall a facet must be, to be wide for what its tips are by rounding. */
-static inline real tall_roughly(const polytope *p) { return (p->fine ? 32 * UNIT : p->noise) * ((real)0x1p-12 / UNIT); }
-
-/* Places the facet by what its tips are by rounding, if it is WIDE for that: that tall. */
-static inline int place_roughly(const polytope *p, facet *f, real tall)
+/* Places the facet by what its tips are by rounding, if it is WIDE for that. */
+static inline int place_roughly(const polytope *p, facet *f)
 {
+    const real tall = TALL(ROUGH_NOISE);
     const vec w0 = p->tip[f->v[0]].w, w1 = p->tip[f->v[1]].w;
 #if DIM == 2
     vec e = sub(w1, w0), n = {{e.c[1], -e.c[0]}};
@@ -307,28 +303,28 @@ static inline int place_roughly(const polytope *p, facet *f, real tall)
     f->height = smaller(dot(f->n, w2), smaller(dot(f->n, w1), dot(f->n, w0)));
 #endif
     f->form = WIDE;
-    f->rough = p->fine ? ROUGH : SHARP;
+    f->rough = ROUGH;
     return 1;
 }
 
-/* Takes the facet between these tips in. Returns its height. tall: as above, for many facets in a row. */
-static inline real add_facet(polytope *p, const int16_t v[DIM], real tall)
+/* Takes the facet between these tips in. Returns its height. */
+static inline real add_facet(polytope *p, const int16_t v[DIM])
 {
     facet *f = &p->facet[p->facets++];
     EACH(f->v[i] = v[i]; f->next[i] = ALONE);
     f->done = f->gone = 0;
-    if (!place_roughly(p, f, tall)) sharpen_facet(p, f);
+    if (!place_roughly(p, f)) sharpen_facet(p, f);
     return f->height;
 }
 
-static void put_facet(polytope *p, const int16_t v[DIM]) { add_facet(p, v, tall_roughly(p)); }
+static void put_facet(polytope *p, const int16_t v[DIM]) { add_facet(p, v); }
 
 /* How far t lies beyond a tip along n; 0 where rounding leaves that open. */
 static real rise(const polytope *p, int from, const tip *t, vec n)
 {
     vec e = reach_over(&p->tip[from], t);
     real r = dot(n, e);
-    return size(r) > 4 * UNIT * dot_size(n, e) + p->noise ? r : 0;
+    return size(r) > 4 * UNIT * dot_size(n, e) + NOISE ? r : 0;
 }
 
 static int nearest_corner(const polytope *p, const facet *f, const tip *t)
@@ -385,7 +381,7 @@ static real rise_over(polytope *p, facet *f, tip *t)
 static int sees(polytope *p, facet *f, tip *t)
 {
     real above = rough_rise(f, t);
-    return is_clear(f, above) ? above > 0 : !(p->fine && is_fourth(p, f, t)) && rise_over(p, f, t) > 0;
+    return is_clear(f, above) ? above > 0 : !is_fourth(p, f, t) && rise_over(p, f, t) > 0;
 }
 
 /* On which side of the facet's plane t is, to twice the digits: of the sign. */
@@ -401,7 +397,7 @@ static real fine_side(const polytope *p, const facet *f, const tip *t)
         far += size(e[i].high);
     }
     real side = sum.high + sum.low;
-    return size(side) > p->noise * (tall + 4 * far * long_edges) ? side : 0;
+    return size(side) > NOISE * (tall + 4 * far * long_edges) ? side : 0;
 }
 
 static seam seam_of(const polytope *p, int at, int i)
@@ -443,9 +439,9 @@ static real side_of(polytope *p, facet *f, tip *t)
 {
     real r = rough_rise(f, t);
     if (is_clear(f, r)) return r;
-    if (p->fine && is_fourth(p, f, t)) return 0;
+    if (is_fourth(p, f, t)) return 0;
     r = rise_over(p, f, t);
-    if (!p->fine || size(r) > CLEAR) return r;
+    if (size(r) > CLEAR) return r;
     vec e = reach_over(&p->tip[f->v[nearest_corner(p, f, t)]], t);
     if (!(size(r) > 16 * UNIT * spread(e))) r = fine_side(p, f, t);
     return r == 0 && p->side ? (real)p->side(p->of, f, t) : r;
@@ -461,14 +457,14 @@ static inline int goes_too(polytope *p, facet *f, seam s, tip *t)
     return r > 0 || (r == 0 && is_on_side(p, f, s, t));
 }
 
-static inline real put_facet_on(polytope *p, seam r, int t, real tall)
+static inline real put_facet_on(polytope *p, seam r, int t)
 {
 #if DIM == 2
     int16_t v[2] = {r.v[1] ? (int16_t)t : r.v[0], r.v[1] ? r.v[0] : (int16_t)t};
 #else
     int16_t v[3] = {r.v[0], r.v[1], (int16_t)t};
 #endif
-    return add_facet(p, v, tall);
+    return add_facet(p, v);
 }
 
 /* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
@@ -631,9 +627,8 @@ static enum growth grow(polytope *p, facet *f, tip *t)
     int outs = clear_way(p, (int)(f - p->facet), t);
     enum growth end = p->rims == 0 ? LOWERED : before + p->rims > p->most_facets ? FULL : GROWN;
     const int rims = end == GROWN ? p->rims : 0, at = p->tips;
-    const real tall = tall_roughly(p);
     p->tip[at] = *t;
-    for (int k = 0; k < rims; k++) least = smaller(put_facet_on(p, p->rim[k], at, tall), least);
+    for (int k = 0; k < rims; k++) least = smaller(put_facet_on(p, p->rim[k], at), least);
     if (end == GROWN && !p->without_rounding && height > 0 && !(least >= height - 64 * UNIT) &&
         !(sharpen_new(p, before) >= height - 64 * UNIT))
         end = LOWERED;

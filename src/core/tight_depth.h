@@ -39,7 +39,8 @@ static int exact_side(const void *of, const facet *of_it, const tip *t)
     const depth *d = of;
     finish f;
     take_plane(&f, d, of_it);
-    dyadics a = placed(d->a, t->x), b = placed(d->b, t->y), w = difference_of(&a, &b), e = difference_of(&w, &f.w[0]);
+    dyadics a = placed(d->a, t->x, 1), b = placed(d->b, t->y, 1), w = difference_of(&a, &b),
+            e = difference_of(&w, &f.w[0]);
     dyadic r = inner(&f.way, &e);
     return r.sign;
 }
@@ -54,7 +55,7 @@ static int take_step(finish *f, depth *d, tip *t)
     d->q->d.calls += 2;
     dyadic up = climb(f, d->a, &f->way, &c.x), down = climb(f, d->b, &back, &c.y), gain = plus(&up, &down, 1);
     c.w = corner_of(&d->q->d, c.x, c.y);
-    *t = tip_of(&c, 1);
+    *t = tip_of(&c);
     return side(f, &gain) > 0;
 }
 
