@@ -437,7 +437,8 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
     if (end == FAULT || (probed && !settled && !tell(q, g, &upper, weight, &end)) || !(q->lower <= upper)) return FAULT;
     if (g->sign_only && q->s.n > DIM && upper < 0) upper = cover_point(q, weight, upper);
     bracket(r, &q->d, q->lower, upper, a, b);
-    if (still && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
+    const int faint = g->sign_only && end == BEYOND && !(r->lower > 0); /* apart, by less than there are numbers for */
+    if ((still || faint) && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
     if (further != STILL && !is_plumbed(q, g, still)) answer(q, a, b, g, upper, weight, r);
     if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
     else if (still && !g->exact) further = take_further(q, a, b, o, g, upper, weight, r);

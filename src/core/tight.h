@@ -482,16 +482,28 @@ static estimate difference_in_twins(wide d, wide r)
     return e;
 }
 
+/* d^2 - r^2 without rounding, over f->under. */
+static dyadic squares_between(const finish *f, const dyadic *r)
+{
+    dyadic over = f->squared ? f->over : times(&f->over, &f->over), rr = times(r, r);
+    rr = times(&rr, &f->under);
+    return plus(&over, &rr, -1);
+}
+
+static dyadic sum_of_radii(real radius_a, real radius_b)
+{
+    dyadic a = dyadic_of(radius_a), b = dyadic_of(radius_b);
+    return plus(&a, &b, 1);
+}
+
 /* The distance less the radii, d - r, by (d^2 - r^2) / (d + r), where the difference is without rounding; where that
  * has too many digits, in twins. */
 static estimate separation(const finish *f, real radius_a, real radius_b)
 {
-    dyadic a = dyadic_of(radius_a), b = dyadic_of(radius_b), r = plus(&a, &b, 1);
+    dyadic r = sum_of_radii(radius_a, radius_b);
     wide d = core_distance(f);
     if (r.sign == 0) return (estimate){d, f->over.sign, FORMULA_OFF};
-    dyadic over = f->squared ? f->over : times(&f->over, &f->over), rr = times(&r, &r);
-    rr = times(&rr, &f->under);
-    dyadic squares = plus(&over, &rr, -1);
+    dyadic squares = squares_between(f, &r);
     if (squares.lost) return difference_in_twins(d, wide_of(&r));
     wide under = wide_of(&f->under), sum = wide_sum(d, wide_of(&r));
     under = (wide){product_of_twins(under.t, sum.t), under.exponent + sum.exponent};
@@ -512,10 +524,21 @@ static int round_off(estimate e, real ends[3])
     return bounded(ends[0]) && bounded(ends[2]);
 }
 
+/* Whether the distance less the radii is the least number, or more. */
+static int is_a_number(const finish *f, real radius_a, real radius_b)
+{
+    dyadic r = sum_of_radii(radius_a, radius_b), least = dyadic_of(TINY);
+    r = plus(&r, &least, 1);
+    dyadic squares = squares_between(f, &r);
+    return !squares.lost && squares.sign >= 0;
+}
+
 /* The bracket of the distance less the radii. 0: that is not to be told. */
 static int enclose(const finish *f, real radius_a, real radius_b, real ends[3])
 {
-    return round_off(separation(f, radius_a, radius_b), ends);
+    if (!round_off(separation(f, radius_a, radius_b), ends)) return 0;
+    if (ends[0] == 0 && ends[2] > 0 && is_a_number(f, radius_a, radius_b)) ends[0] = TINY;
+    return 1;
 }
 
 /* What f found, as the search's own: the simplex, its weights, the normal. */
