@@ -14,13 +14,13 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xec92b576ba308883, 0x2632791e1830972c, 0x86a8096b2ac44837};
+static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x7cd8457399203b0a};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xa0389aeec5aad3f2, 0x8058033194350f4c, 0x1990f31dd3eace77};
+static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x4dbdd6d5b5349205};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xef23d42743698bfc, 0x8aab4d708229e9b1, 0x5b4ab5d8d6118b7b};
+static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0x38600309dccd726b};
 #else
 #define V(name) gjk2f_##name
 static const uint64_t known[3] = {0xe18daf502c62f87b, 0x4e4dcc667154d06c, 0x447ec6e1dc668494};

@@ -424,32 +424,59 @@ static vec square_to_tips(const polytope *p, vec n)
     return n;
 }
 
-/* A unit vector square to the tips so far, near that axis; to all the digits where there is but one. */
-static vec off_tips(const polytope *p, int i)
+/* Works out what rounding took from the tips so far. */
+static void sharpen_tips(polytope *p)
 {
-    vec n = square_to_tips(p, axis(i, 1));
-    if (p->tips < DIM) return length(n) > (real)0.5 ? unit_of(n, n) : axis(0, 0); /* another axis is more square */
+    for (int k = 0; k < p->tips; k++) sharpen_tip(p, &p->tip[k]);
+}
+
+/* Tips that stand off each other by less are as near as rounding may decide. */
+#define OFF ((real)0x1p-10)
+
+/* Square to DIM tips; to all the digits where they are near each other, or all but in line. */
+static vec normal_of_tips(polytope *p)
+{
 #if DIM == 2
-    n = reach_over(&p->tip[0], &p->tip[1]);
-    n = (vec){{n.c[1], -n.c[0]}};
+    sharpen_tips(p);
+    vec n = reach_over(&p->tip[0], &p->tip[1]);
+    return (vec){{n.c[1], -n.c[0]}};
 #else
+    vec n = cross(way_to(&p->tip[0], &p->tip[1]), way_to(&p->tip[0], &p->tip[2]));
     twin fine[3];
+    if (length(n) > OFF) return n;
+    sharpen_tips(p);
     fine_cross(&p->tip[0], &p->tip[1], &p->tip[2], fine);
     for (int k = 0; k < 3; k++) n.c[k] = fine[k].high;
+    return n;
 #endif
+}
+
+/* A unit vector square to the tips so far, near that axis. */
+static vec off_tips(polytope *p, int i)
+{
+    if (p->tips < DIM) {
+        const vec n = square_to_tips(p, axis(i, 1));
+        return length(n) > (real)0.5 ? unit_of(n, n) : axis(0, 0); /* another axis is more square */
+    }
+    const vec n = normal_of_tips(p);
     return i == 0 ? unit_of(n, n) : axis(0, 0);
 }
 
 /* How far t lies beyond all tips along n; 0 where that is not certain. */
-static real rise_over_tips(const polytope *p, vec n, const tip *t)
+static real rise_over_tips(polytope *p, vec n, tip *t)
 {
     real least = REAL_MAX;
+    for (int k = 0; k < p->tips; k++) least = smaller(dot(n, way_to(&p->tip[k], t)), least);
+    if (size(least) > CLEAR) return larger(least, 0);
+    sharpen_tips(p);
+    sharpen_tip(p, t);
+    least = REAL_MAX;
     for (int k = 0; k < p->tips; k++) least = smaller(rise(p, k, t, n), least);
     return larger(least, 0);
 }
 
 /* The ways off the tips, up and down each axis; a zero vector where that axis is not one. */
-static vec way_off(const polytope *p, int i) { return mul(off_tips(p, i / 2), i & 1 ? (real)-1 : (real)1); }
+static vec way_off(polytope *p, int i) { return mul(off_tips(p, i / 2), i & 1 ? (real)-1 : (real)1); }
 
 /* Adds the corner farthest off the tips so far; the first that is far enough will do. STILL: there is none beyond
  * rounding, the difference is flat. CLOSE: the cores only touch. */
@@ -458,7 +485,6 @@ static enum end spread_out(depth *d)
     polytope *p = &d->p;
     tip best = p->tip[0];
     real most = 0;
-    for (int k = 0; k < p->tips; k++) sharpen_tip(p, &p->tip[k]);
     for (int i = 0; i < 2 * DIM && !(most > (real)0.125); i++) {
         tip t;
         vec n = way_off(p, i);
@@ -466,7 +492,6 @@ static enum end spread_out(depth *d)
         if (d->q->steps >= d->g->max_steps) return OPEN;
         if (!ask_along(d, n, &t)) return FAULT;
         if (d->g->exact && dot(n, t.w) <= 32 * UNIT && is_flush(d, n)) return CLOSE;
-        sharpen_tip(p, &t);
         real off = rise_over_tips(p, n, &t);
         if (!(off > most)) continue;
         most = off;
@@ -481,10 +506,7 @@ static enum end spread_out(depth *d)
     return STILL;
 }
 
-/* Corners of a simplex that stand off those before them by less are left out. */
-#define OFF ((real)0x1p-10)
-
-/* Of a full simplex none is. */
+/* No corner of a full simplex is left out for standing off those before it by less than OFF. */
 static int is_spread(const simplex *s)
 {
     vec a = sub(point(s, 1), point(s, 0)), b = sub(point(s, 2), point(s, 0));
@@ -499,7 +521,7 @@ static int is_spread(const simplex *s)
 #endif
 }
 
-/* The simplex that the search left, without the corners that hardly stand off the others. */
+/* The simplex that the search left, without the corners that stand off those before them by less than OFF. */
 static void take_simplex(depth *d)
 {
     polytope *p = &d->p;

@@ -17,8 +17,8 @@ typedef struct sight_of_two {
     vec v;       /* the way from b to a; of a point in a box the way out */
     real l;      /* its length */
     real lies;   /* by so much lower than the pair does a corner lie along v, */
-    real fall;   /*   by no more than that for certain */
-    real edge;   /* how long edges are that lead there */
+    real fall;   /*   by no more than that for certain, */
+    real most;   /*   and by so much it may seem to, though the pair is nearest */
     real off;    /* so far the pair may be off the bodies */
     int inside;  /* of a point in a box: */
     twin height; /*   of the pair along v, below 0; */
@@ -60,8 +60,9 @@ static inline real fall_along(real rise, real err, real behind, real ahead)
  * of the quotient; of a segment its ends' difference 1 besides. */
 static inline real lost_of_rise(real edge, real rise) { return UNIT * (7 * edge + 4 * size(rise)); }
 
-/* By so many roundings of the edges a corner may seem to lie lower than the pair, which is nearest then. */
+/* By so many roundings of the edges a corner may seem to lie lower than the pair, which is nearest then; of a stick. */
 #define LIES (4 * UNIT)
+#define LIES_OF_STICK UNIT
 
 /* ---- points and segments ---- */
 
@@ -207,9 +208,10 @@ HOT void sight_sticks(const difference *d, const goal *g, const sticks *k, sight
     e->l = are_of_length(k, d) ? length(e->v) : 0;
     if (exactly) edge = edges_of(k);
     look_along_sticks(k, share, edge, e);
-    e->edge = of_a(edge) + of_b(edge);
-    e->off = UNIT * e->edge * (real)1.125;
-    if (exactly && !(e->lies <= LIES * e->edge)) *e = shifted(d, *k, share, edge, *e);
+    const real edges = of_a(edge) + of_b(edge);
+    e->most = LIES_OF_STICK * edges;
+    e->off = UNIT * edges * (real)1.125;
+    if (exactly && !(e->lies <= e->most)) *e = shifted(d, *k, share, edge, *e);
 }
 
 /* ---- a point and a box ---- */
@@ -319,7 +321,7 @@ static inline void sight_box(const difference *d, const goal *g, real level, sig
     const real longest = g->sign_only ? 0 : root(peak(k.uu)) / level;
     e->fall = fall_of_box(rise, longest, !g->sign_only, k.half, foot);
     e->lies = fall_of_box(rise, longest, 0, k.half, foot);
-    e->edge = 2 * longest * spread(k.half);
+    e->most = LIES * (2 * longest * spread(k.half));
     e->off = 0;
     if (!e->inside) return;
     e->height = height_to_twice(e->v, e->w, e->low);
@@ -345,7 +347,7 @@ static inline int bound_finely(const difference *d, const sight_of_two *e, twin 
     *lower = l.high + (l.low - e->fall - blur);
     *upper = l.high + (l.low + blur);
     if (e->inside && !(e->deep > 0)) return 0;
-    if (!(l.high * l.high > UNIT * (whole * whole)) || !(e->lies <= LIES * e->edge)) return 0;
+    if (!(l.high * l.high > UNIT * (whole * whole)) || !(e->lies <= e->most)) return 0;
     const real broad = e->inside ? e->broad : whole / 2;
     return !g->deep || *lower > g->radius || *upper - *lower <= BROAD * (broad + g->radius);
 }
