@@ -551,15 +551,10 @@ static enum end first_surface(depth *d)
 
 /* ---- the proof ---- */
 
-static inline int count_dips(const depth *d) { return d->dips ? d->dips->n : 0; }
-
-/* Whether a tip of the facet is that of a dip, which is no corner. */
-static int stands_out(const depth *d, const facet *f)
+/* Whether tips are points of the bodies in the caller's unit: none of a dip, nor those of ready-made round sets. */
+static int are_placed(const depth *d)
 {
-    for (int i = 0; i < count_dips(d); i++)
-        for (int k = 0; k < DIM && d->dips->at[i].planted; k++)
-            if (same(d->p.tip[f->v[k]].w, d->dips->at[i].at)) return 1;
-    return 0;
+    return d->g->exact || (EXACT && !d->dips && d->q->d.a.unit == 1 && d->q->d.b.unit == 1);
 }
 
 /* On which side of the facet's plane the origin is: above 0, the inner; below 0, the outer, or numbers are lost. */
@@ -568,8 +563,7 @@ static int inner_side(const depth *d, const facet *f)
     dyadics w[DIM];
     for (int i = 0; i < DIM; i++) {
         const tip *t = &d->p.tip[f->v[i]];
-        dyadics a = placed(d->a, t->x, d->g->exact ? 1 : d->q->d.a.unit);
-        dyadics b = placed(d->b, t->y, d->g->exact ? 1 : d->q->d.b.unit);
+        dyadics a = placed(d->a, t->x), b = placed(d->b, t->y);
         w[i] = difference_of(&a, &b);
     }
 #if DIM == 2
@@ -658,7 +652,7 @@ static void count_angle(depth *d, facet *f, tally *t)
         t->certain += area / far * (f->height / far) / (DIM == 2 ? 4 : 4 * far);
         return;
     }
-    int side = stands_out(d, f) ? -1 : inner_side(d, f);
+    int side = are_placed(d) ? inner_side(d, f) : -1;
     real floor = larger(f->height, t->least); /* its own normal may lead away from the origin */
     t->proven += side > 0;
     if (side < 0) t->doubtful += floor > 0 ? (spread(n) + slop) / floor / (DIM == 2 ? 1 : floor) : REAL_MAX;
@@ -684,6 +678,8 @@ static int goes_around(depth *d, real least)
     }
     return 0;
 }
+
+static inline int count_dips(const depth *d) { return d->dips ? d->dips->n : 0; }
 
 static inline dip *lowest_dip(const depth *d) { return d->dips ? d->dips->best : NULL; }
 

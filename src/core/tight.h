@@ -225,25 +225,16 @@ static int shrink(finish *f)
     return !f->lost && mask > 0;
 }
 
-/* A length in that unit of a body's own, a power of two, in the caller's. */
-static dyadic in_callers(real x, real unit)
-{
-    dyadic r = dyadic_of(x);
-    if (unit == 1) return r;
-    dyadic callers = dyadic_of(1 / unit);
-    return times(&r, &callers);
-}
-
 /* ---- the farthest corner ---- */
 
-static dyadics placed(const shape *s, vec x, real unit)
+static dyadics placed(const shape *s, vec x)
 {
     dyadics r;
     for (int i = 0; i < DIM; i++) {
-        r.c[i] = s->pose ? dyadic_of(s->pose->p[i]) : in_callers(x.c[i], unit);
+        r.c[i] = dyadic_of(s->pose ? s->pose->p[i] : x.c[i]);
         for (int j = 0; j < DIM && s->pose; j++) {
             if (s->pose->m[DIM * i + j] == 0) continue;
-            dyadic m = dyadic_of(s->pose->m[DIM * i + j]), t = in_callers(x.c[j], unit);
+            dyadic m = dyadic_of(s->pose->m[DIM * i + j]), t = dyadic_of(x.c[j]);
             t = times(&m, &t);
             r.c[i] = plus(&r.c[i], &t, 1);
         }
@@ -349,7 +340,7 @@ static dyadics corner_without_rounding(const finish *f, vec x, vec y)
         int n = add_terms(f->a, x, i, 1, terms, 0);
         if (n > 0) n = add_terms(f->b, y, i, -1, terms, n);
         if (n == 0) {
-            dyadics a = placed(f->a, x, 1), b = placed(f->b, y, 1);
+            dyadics a = placed(f->a, x), b = placed(f->b, y);
             return difference_of(&a, &b);
         }
         r.c[i] = total_of(terms, n);

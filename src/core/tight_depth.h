@@ -39,8 +39,7 @@ static int exact_side(const void *of, const facet *of_it, const tip *t)
     const depth *d = of;
     finish f;
     take_plane(&f, d, of_it);
-    dyadics a = placed(d->a, t->x, 1), b = placed(d->b, t->y, 1), w = difference_of(&a, &b),
-            e = difference_of(&w, &f.w[0]);
+    dyadics a = placed(d->a, t->x), b = placed(d->b, t->y), w = difference_of(&a, &b), e = difference_of(&w, &f.w[0]);
     dyadic r = inner(&f.way, &e);
     return r.sign;
 }
