@@ -17,7 +17,7 @@
 static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x7cd8457399203b0a};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x4dbdd6d5b5349205};
+static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x087af29e8f088638};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0x38600309dccd726b};
