@@ -730,11 +730,14 @@ static int bound(depth *d, real *upper)
 
 /* ---- growth ---- */
 
-/* Whether the depth, which lies between the facet's height and the least height seen, is known as well as rounding can
- * tell. Where that takes many facets, so often one more is looked beyond all the same. */
-static int has_closed_in(depth *d, const facet *f)
+/* So often one more facet is looked beyond, though no more can be proven. */
+#define CLOSINGS 8
+
+/* Counts how often that is asked. Whether the depth, which lies between the facet's height and the least height seen,
+ * is known as well as rounding can tell, or it has been asked often enough. */
+static int close_in(depth *d, const facet *f)
 {
-    return d->least - f->height <= 2 * UNIT + d->q->d.slack || d->closings++ == 8;
+    return d->least - f->height <= 2 * UNIT + d->q->d.slack || d->closings++ == CLOSINGS;
 }
 
 /* With what the facet's own direction proves, lower, the bracket is as narrow as asked, or as rounding allows where the
@@ -743,7 +746,7 @@ static int close_enough(depth *d, const facet *f, real lower)
 {
     const goal *g = d->g;
     real doubt = d->q->d.doubt, upper = -f->height + doubt;
-    if (!g->exact && upper - lower <= 3 * doubt + d->q->d.slack && has_closed_in(d, f)) return 1;
+    if (!g->exact && upper - lower <= 3 * doubt + d->q->d.slack && close_in(d, f)) return 1;
     if (!(g->abs_tol > 0) && !(g->rel_tol > 0)) return 0;
     real asked = g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
     /* a facet that rounding may take below the origin bounds nothing from above */

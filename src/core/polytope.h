@@ -175,7 +175,7 @@ static void fine_reach(const tip *from, const tip *to, twin r[DIM])
     }
 }
 
-/* How tall a facet must be, to be wide for that noise of its corners. */
+/* How tall a facet must be, to be wide for so much noise of its corners. */
 #define TALL(noise) ((noise) * ((real)0x1p-12 / UNIT))
 
 #if DIM == 2
@@ -308,7 +308,7 @@ static inline int place_roughly(const polytope *p, facet *f)
 }
 
 /* Takes the facet between these tips in. Returns its height. */
-static inline real add_facet(polytope *p, const int16_t v[DIM])
+static inline real put_facet(polytope *p, const int16_t v[DIM])
 {
     facet *f = &p->facet[p->facets++];
     EACH(f->v[i] = v[i]; f->next[i] = ALONE);
@@ -316,8 +316,6 @@ static inline real add_facet(polytope *p, const int16_t v[DIM])
     if (!place_roughly(p, f)) sharpen_facet(p, f);
     return f->height;
 }
-
-static void put_facet(polytope *p, const int16_t v[DIM]) { add_facet(p, v); }
 
 /* How far t lies beyond a tip along n; 0 where rounding leaves that open. */
 static real rise(const polytope *p, int from, const tip *t, vec n)
@@ -464,7 +462,7 @@ static inline real put_facet_on(polytope *p, seam r, int t)
 #else
     int16_t v[3] = {r.v[0], r.v[1], (int16_t)t};
 #endif
-    return add_facet(p, v);
+    return put_facet(p, v);
 }
 
 /* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
