@@ -457,24 +457,20 @@ static void family_holds(void **state)
  * their doubt, and a facet of noise that nothing lies beyond. */
 static void pairs_of_other_seeds(void **state)
 {
-    static const struct {
-        const char *variant;
-        uint64_t seed;
-        enum family family;
-        long at;
-    } known_pair[] = {{"gjk3", 2, ROUNDED, 54}, {"gjk3f", 2, ROUNDED, 65}, {"gjk3f", 3, CONTAINED, 114}};
+    static const found_pair pairs[] = {
+        {"gjk3", 2, ROUNDED, 54}, {"gjk3f", 2, ROUNDED, 65}, {"gjk3f", 3, CONTAINED, 114}};
     const uint64_t usual = seed;
     (void)state;
-    for (size_t k = 0; k < sizeof known_pair / sizeof *known_pair; k++) {
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
         figures s;
         memset(&s, 0, sizeof s);
-        s.family = known_pair[k].family;
+        s.family = pairs[k].family;
         s.name = family_name[s.family];
-        if (strcmp(known_pair[k].variant, VARIANT) != 0) {
+        if (strcmp(pairs[k].variant, VARIANT) != 0) {
             continue;
         }
-        seed = known_pair[k].seed;
-        at = known_pair[k].at;
+        seed = pairs[k].seed;
+        at = pairs[k].at;
         one_pair(&s);
         print_faults(&s.faults, s.name);
         assert_int_equal(s.faults.count, 0);

@@ -70,6 +70,14 @@ typedef struct pair {
     body part[4];
 } pair;
 
+/* A pair that other seeds than the usual draw, of which an answer has been wrong. */
+typedef struct found_pair {
+    const char *variant;
+    uint64_t seed;
+    enum family family;
+    long at;
+} found_pair;
+
 /* The bodies point into the pair: it is bound again wherever it is copied or changed. */
 static inline void bind_pair(pair *p)
 {
