@@ -453,12 +453,16 @@ static void family_holds(void **state)
     assert_true(mean(s->sum_own_error, s->own) <= MEAN_ERROR_OF_OWN);
 }
 
-/* Pairs of other seeds that were off by more than 9 u * scale behind supports of one's own: cores apart by less than
- * their doubt, and a facet of noise that nothing lies beyond. */
+/* Pairs of other seeds. Behind supports of one's own they were off by more than 9 u * scale: cores apart by less than
+ * their doubt, and a facet of noise that nothing lies beyond. Their normal was off by 1e-7: edges all but parallel, on
+ * which the nearest points are at an end, and at an end but for a rounding. */
 static void pairs_of_other_seeds(void **state)
 {
-    static const found_pair pairs[] = {
-        {"gjk3", 2, ROUNDED, 54}, {"gjk3f", 2, ROUNDED, 65}, {"gjk3f", 3, CONTAINED, 114}};
+    static const found_pair pairs[] = {{"gjk3", 2, ROUNDED, 54},
+                                       {"gjk3f", 2, ROUNDED, 65},
+                                       {"gjk3f", 3, CONTAINED, 114},
+                                       {"gjk3", 3, EDGES, 87},
+                                       {"gjk3", 8, EDGES, 199}};
     const uint64_t usual = seed;
     (void)state;
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
@@ -474,7 +478,7 @@ static void pairs_of_other_seeds(void **state)
         one_pair(&s);
         print_faults(&s.faults, s.name);
         assert_int_equal(s.faults.count, 0);
-        assert_true(s.own > 0);
+        assert_true(s.own > 0 || s.asked[REACHES] > 0);
     }
     seed = usual;
 }
@@ -1600,35 +1604,51 @@ static void turn_slightly(draws *d, V(pose) * turned)
 }
 
 /* Bricks by their corners, one turned in the other: many facets are all but equally low, and their feet lie side by
- * side. The points are on one line with the normal. */
+ * side. By how much the points are off one line with the normal, or the bracket is wide. */
+static double flaw_of_bricks(uint64_t of_seed, long at_pair)
+{
+    draws d = draws_from(of_seed + 9, 0, (uint64_t)at_pair);
+    real corners[1 << DIM][DIM], half[DIM];
+    V(pose) turned;
+    V(points) cloud = {corners[0], 1 << DIM, 0, 0, 0};
+    V(shape) a = {V(support_points), &cloud, NULL, 0}, b = {V(support_points), &cloud, &turned, 0};
+    V(result) r;
+    for (int i = 0; i < DIM; i++) {
+        half[i] = (real)between(&d, 0.1, 1);
+    }
+    for (int k = 0; k < 1 << DIM; k++) {
+        for (int i = 0; i < DIM; i++) {
+            corners[k][i] = k >> i & 1 ? half[i] : -half[i];
+        }
+    }
+    cloud.reach = V(points_reach)(&cloud);
+    turn_slightly(&d, &turned);
+    assert_true(V(penetration)(&a, &b, NULL, &r) == GJK_OK && r.upper < 0);
+    double worst = in_u((quad)width_of(&r), 1);
+    for (int i = 0; i < DIM; i++) {
+        double off = (double)r.point_a[i] - (double)r.point_b[i] + (double)r.value * (double)r.normal[i];
+        worst = fmax(worst, in_u((quad)off, 1));
+    }
+    return worst;
+}
+
+/* Some of other seeds: the points were those of another facet than the normal, the bracket was 100 u wide for a facet
+ * of all but collinear corners. */
 static void bricks_on_one_spot(void **state)
 {
+    static const found_pair found[] = {
+        {"gjk3", 22, HULLS, 901}, {"gjk3", 25, HULLS, 2476}, {"gjk3f", 149, HULLS, 3949}, {"gjk3f", 155, HULLS, 3499}};
     double worst = 0;
     (void)state;
     for (int at_pair = 0; at_pair < 4000; at_pair++) {
-        draws d = draws_from(seed + 9, 0, (uint64_t)at_pair);
-        real corners[1 << DIM][DIM], half[DIM];
-        V(pose) turned;
-        V(points) cloud = {corners[0], 1 << DIM, 0, 0, 0};
-        V(shape) a = {V(support_points), &cloud, NULL, 0}, b = {V(support_points), &cloud, &turned, 0};
-        V(result) r;
-        for (int i = 0; i < DIM; i++) {
-            half[i] = (real)between(&d, 0.1, 1);
-        }
-        for (int k = 0; k < 1 << DIM; k++) {
-            for (int i = 0; i < DIM; i++) {
-                corners[k][i] = k >> i & 1 ? half[i] : -half[i];
-            }
-        }
-        cloud.reach = V(points_reach)(&cloud);
-        turn_slightly(&d, &turned);
-        assert_true(V(penetration)(&a, &b, NULL, &r) == GJK_OK && r.upper < 0);
-        for (int i = 0; i < DIM; i++) {
-            double off = (double)r.point_a[i] - (double)r.point_b[i] + (double)r.value * (double)r.normal[i];
-            worst = fmax(worst, in_u((quad)off, 1));
+        worst = fmax(worst, flaw_of_bricks(seed, at_pair));
+    }
+    for (size_t k = 0; k < sizeof found / sizeof *found; k++) {
+        if (strcmp(found[k].variant, VARIANT) == 0) {
+            worst = fmax(worst, flaw_of_bricks(found[k].seed, found[k].at));
         }
     }
-    printf("%-6s bricks on one spot: points off the normal by %.1f u\n", VARIANT, worst);
+    printf("%-6s bricks on one spot: points off the normal, or bounds apart, by %.1f u\n", VARIANT, worst);
     assert_true(worst <= 32);
 }
 

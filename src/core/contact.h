@@ -222,33 +222,42 @@ static void turn_to_normal(depth *d)
     }
 }
 
-/* Normal and points go with the lowest facet, if its normal is as good as any. Of some that are equally low to
- * rounding, one is the lowest in truth, and that one is right under the origin. */
-static void point_out(depth *d, real weight[DIM + 1])
+/* Of some that are equally low to rounding, one is the lowest in truth, and that one is right under the origin: it is
+ * sought among those whose normal is as good as any, and normal and points go with it. Beside the floor's foot the
+ * points lie by off. */
+static void stand_under(depth *d, real off, real weight[DIM + 1])
 {
+    search *q = d->q;
     facet *best = d->floor;
-    if (!takes_normal(d, best) && !d->g->exact) turn_to_normal(d);
-    real off = hand_over(d, weight);
-    if (!(off > 4 * UNIT)) return;
-    if (!d->g->exact) {
-        hand_over_from_any(d, off, weight);
-        return;
-    }
+    vec normal = q->normal;
+    real bound = q->lower;
     for (int k = 0; k < d->p.facets; k++) {
         facet *f = &d->p.facet[k];
         if (f == best || !(f->height <= best->height + 64 * UNIT)) continue;
         if (f->rough) sharpen_facet(&d->p, f);
         if (!takes_normal(d, f)) continue;
         d->floor = f;
-        real here = hand_over(d, weight);
-        if (!(here < off)) continue;
+        const real here = hand_over(d, weight);
+        if (!(here < off) && q->lower <= bound + 4 * UNIT) continue;
         off = here;
         best = f;
+        normal = f->n;
+        bound = q->lower;
     }
     d->floor = best;
-    takes_normal(d, best);
+    q->normal = normal;
     off = hand_over(d, weight);
     if (off > 4 * UNIT) hand_over_from_any(d, off, weight);
+}
+
+/* Normal and points go with the lowest facet, if its normal is as good as any. */
+static void point_out(depth *d, real weight[DIM + 1])
+{
+    if (!takes_normal(d, d->floor)) turn_to_normal(d);
+    const real off = hand_over(d, weight);
+    if (!(off > 4 * UNIT)) return;
+    if (d->g->exact) stand_under(d, off, weight);
+    else hand_over_from_any(d, off, weight);
 }
 
 /* The bound from below that the dip gave is the best one, to a few roundings. */
@@ -319,7 +328,7 @@ static int prove(depth *d, real *upper)
  * else between that and the least height seen. What bounds are charged for roundings is left out. */
 static real depth_of_floor(const depth *d, enum end end, real seen)
 {
-    const real height = -fine_floor(&d->p, d->floor).high;
+    const real height = -fine_floor(&d->p, d->floor, d->floor->n).high;
     return end == STILL ? height : (height + seen) / 2;
 }
 

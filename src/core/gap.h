@@ -34,17 +34,52 @@ static inline int may_slide(unsigned free_a, unsigned free_b)
     return free_a && free_b && (DIM == 2 || !(only_axis(free_a) >= 0 && only_axis(free_b) >= 0));
 }
 
+/* Points of the boxes, lengths along their axes, times their grain. */
+static inline void scale_points(const gauge *k, vec *x, vec *y)
+{
+    EACH(x->c[i] *= k->unit[0].c[i]; y->c[i] *= k->unit[1].c[i]);
+}
+
+/* The way between the points, to rounding. */
+static inline vec way_at(const difference *d, const gauge *k, vec x, vec y)
+{
+    scale_points(k, &x, &y);
+    return corner_at(d, x, y);
+}
+
 #if DIM == 3
+/* What the way between two points gains where both go along their edges, as if these were parallel. It has all digits
+ * that the edges have. */
+static inline vec spread_of_edges(vec u, vec v) { return dot(u, v) < 0 ? add(u, v) : sub(u, v); }
+
+/* Square to two edges; to one of them, that is as near to w as any. */
+static inline vec square_to_edges(vec u, vec v) { return cross(u, spread_of_edges(u, v)); }
+
+static inline vec square_to_edge(vec u, vec w) { return sub(w, mul(u, dot(w, u))); }
+
+/* How far along all but parallel edges x is to go, and y beside it, until nothing of the way between them is along what
+ * the edges spread by. What is less than two roundings of the frame is left. */
+static real slide_along(const difference *d, const gauge *k, int of_a, int of_b, vec x, vec y)
+{
+    const vec u = k->u[of_a], e = square_to_edge(u, spread_of_edges(u, k->u[DIM + of_b]));
+    const real along = dot(way_at(d, k, x, y), e), ee = dot(e, e);
+    return along * along > 4 * UNIT * UNIT * ee ? -along / ee : 0;
+}
+
 /* Of the lines along an axis of each box, through x and through y, the points nearest to each other, as far as they are
  * in the boxes. */
-static void meet_on_edges(const gauge *k, int of_a, int of_b, vec *x, vec *y)
+static void meet_on_edges(const difference *d, const gauge *k, int of_a, int of_b, vec *x, vec *y)
 {
     const real rr = k->r[of_a].c[of_b];
-    if (!(1 - rr * rr > PARALLEL)) return;
-    x->c[of_a] = y->c[of_b] = 0;
-    x->c[of_a] = (seen_from_a(k, *y).c[of_a] + rr * seen_from_b(k, *x).c[of_b]) / (1 - rr * rr);
+    if (1 - rr * rr > PARALLEL) {
+        x->c[of_a] = y->c[of_b] = 0;
+        x->c[of_a] = (seen_from_a(k, *y).c[of_a] + rr * seen_from_b(k, *x).c[of_b]) / (1 - rr * rr);
+    } else {
+        x->c[of_a] += slide_along(d, k, of_a, of_b, *x, *y);
+    }
     *x = clamped(*x, k->e);
     y->c[of_b] = seen_from_b(k, *x).c[of_b];
+    if (size(y->c[of_b]) < k->f.c[of_b]) return; /* and x, if at its edge's end, to the last digit */
     *y = clamped(*y, k->f);
     x->c[of_a] = seen_from_a(k, *y).c[of_a];
     *x = clamped(*x, k->e);
@@ -86,7 +121,7 @@ static int start_at_edges(const gauge *k, real least, vec *x, vec *y)
 #endif
 
 /* The nearest points, where the least of the heights along the axes is at. 0: there is no gap wider than least. */
-static inline int find_nearest(const gauge *k, int at, real height, real least, vec *x, vec *y)
+static inline int find_nearest(const difference *d, const gauge *k, int at, real height, real least, vec *x, vec *y)
 {
     const int faced = height < -least;
     if (faced) start_at_face(k, at, x, y);
@@ -95,7 +130,7 @@ static inline int find_nearest(const gauge *k, int at, real height, real least, 
         if (!start_at_edges(k, least, x, y) && !faced) return 0;
     }
     const int of_a = only_axis(free_axes(*x, k->e)), of_b = only_axis(free_axes(*y, k->f));
-    if (of_a >= 0 && of_b >= 0) meet_on_edges(k, of_a, of_b, x, y);
+    if (of_a >= 0 && of_b >= 0) meet_on_edges(d, k, of_a, of_b, x, y);
     return 1;
 #else
     return faced;
@@ -111,13 +146,6 @@ static inline vec normal_of(const vec *u, int but)
     return cross(u[next_axis[but + 1]], u[next_axis[but + 2]]);
 #endif
 }
-
-#if DIM == 3
-/* Square to two edges, by their difference, which has all its digits; to one of them, that is as near to w as any. */
-static inline vec square_to_edges(vec u, vec v) { return cross(u, dot(u, v) < 0 ? add(v, u) : sub(v, u)); }
-
-static inline vec square_to_edge(vec u, vec w) { return sub(w, mul(u, dot(w, u))); }
-#endif
 
 /* The way from y to x, which is w to rounding, without that: square to the face or the edges that they lie on. */
 static vec way_between(const gauge *k, vec w, unsigned free_a, unsigned free_b)
@@ -164,12 +192,6 @@ typedef struct prospect {
     unsigned free_a, free_b;
 } prospect;
 
-/* Points of the boxes, lengths along their axes, times their grain. */
-static inline void scale_points(const gauge *k, vec *x, vec *y)
-{
-    EACH(x->c[i] *= k->unit[0].c[i]; y->c[i] *= k->unit[1].c[i]);
-}
-
 /* A point on the box's sides, x times its grain, is on them to the last digit. */
 static vec put_on_sides(const body *k, vec x, unsigned free)
 {
@@ -194,13 +216,6 @@ static inline int look_between(const difference *d, const gauge *k, vec x, vec y
     s->p = spots_at(d, &d->maps, duos_of(x, y));
     s->l = way_between(k, s->p.w, s->free_a, s->free_b);
     return is_along(s->l, s->p.w);
-}
-
-/* The way between the points, to rounding. */
-static inline vec way_at(const difference *d, const gauge *k, vec x, vec y)
-{
-    scale_points(k, &x, &y);
-    return corner_at(d, x, y);
 }
 
 /* What of the way w between the points is not square to the faces or edges that they lie on is taken back, where that
@@ -284,7 +299,7 @@ static APART int tell_gap(search *q, const shape *a, const shape *b, const goal 
         if (!(peak(way) > 0)) return 0;
     }
     const real blurred = 32 * q->d.doubt + (1 + 16 * UNIT) * g->radius; /* as tell_nearest has it */
-    return find_nearest(&k, least, h[least], blurred, &x, &y) && tell_nearest(q, &k, x, y, a, b, g, r);
+    return find_nearest(&q->d, &k, least, h[least], blurred, &x, &y) && tell_nearest(q, &k, x, y, a, b, g, r);
 }
 
 #endif

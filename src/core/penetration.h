@@ -278,19 +278,19 @@ static real excess(vec n)
     return (square.high + square.low) / 2;
 }
 
-/* The least height of the facet's corners. */
-static twin fine_floor(const polytope *p, const facet *f)
+/* The least height of the facet's corners along n. */
+static twin fine_floor(const polytope *p, const facet *f, vec n)
 {
     twin least = {REAL_MAX, 0};
     for (int k = 0; k < DIM; k++) {
         tip *t = &p->tip[f->v[k]];
         sharpen_tip(p, t);
-        twin h = {0, dot(f->n, t->low)};
-        for (int i = 0; i < DIM; i++) gather(&h, product_of(f->n.c[i], t->w.c[i]));
+        twin h = {0, dot(n, t->low)};
+        for (int i = 0; i < DIM; i++) gather(&h, product_of(n.c[i], t->w.c[i]));
         h = sum_of(h.high, h.low);
         if (is_lower_twin(h, least)) least = h;
     }
-    return sum_of(least.high, least.low - least.high * excess(f->n));
+    return sum_of(least.high, least.low - least.high * excess(n));
 }
 
 /* ---- normals of known corners ---- */
@@ -579,21 +579,27 @@ static inline real below_height(twin h) { return h.high - 2 * UNIT * size(h.high
 static real floor_of(const depth *d, const facet *f)
 {
     if (!d->g->exact) return f->height - 8 * UNIT * (size(f->height) + 2) - d->q->d.doubt;
-    return below_height(same(f->n, d->sight.n) ? floor_seen(d, f) : fine_floor(&d->p, f));
+    return below_height(same(f->n, d->sight.n) ? floor_seen(d, f) : fine_floor(&d->p, f, f->n));
+}
+
+/* Whether the two have all corners but one in common; other: which is not, of f. */
+static int are_neighbours(const facet *f, const facet *g, int *other)
+{
+    int shared = 0;
+    for (int i = 0; i < DIM; i++) {
+        int common = 0;
+        for (int k = 0; k < DIM; k++) common |= f->v[i] == g->v[k];
+        shared += common;
+        if (!common) *other = f->v[i];
+    }
+    return shared == DIM - 1;
 }
 
 /* Whether the facet is in the lowest facet's plane for certain: it is the other half of a parallelogram. */
 static int is_other_half(const depth *d, const facet *f)
 {
-    const facet *low = d->floor;
-    int shared = 0, fourth = 0;
-    for (int i = 0; i < DIM; i++) {
-        int common = 0;
-        for (int k = 0; k < DIM; k++) common |= f->v[i] == low->v[k];
-        shared += common;
-        if (!common) fourth = f->v[i];
-    }
-    return shared == DIM - 1 && is_fourth(&d->p, low, &d->p.tip[fourth]);
+    int fourth;
+    return are_neighbours(f, d->floor, &fourth) && is_fourth(&d->p, d->floor, &d->p.tip[fourth]);
 }
 
 /* What a facet's floor is at least, seen along the lowest facet's normal; below all that counts if it is not known well
@@ -606,13 +612,26 @@ static real floor_seen_well(const depth *d, const facet *f, real least)
     return well ? floor : -REAL_MAX;
 }
 
+/* The floor of a facet of known corners that is narrow: along its own normal, which may be noise, or a neighbour's. */
+static real floor_of_narrow(const depth *d, const facet *f)
+{
+    real floor = floor_of(d, f);
+    for (int k = 0; k < d->p.facets; k++) {
+        const facet *g = &d->p.facet[k];
+        int other;
+        if (g->form == WIDE && are_neighbours(f, g, &other)) floor = larger(below_height(fine_floor(&d->p, f, g->n)), floor);
+    }
+    return floor;
+}
+
 /* How low the facets are. */
 static void count_height(const depth *d, const facet *f, tally *t)
 {
     t->facets++;
     if (!(f->height - 64 * UNIT - d->q->d.doubt < t->least)) return;
     real floor = floor_seen_well(d, f, t->least);
-    t->least = smaller(floor > -REAL_MAX ? floor : floor_of(d, f), t->least);
+    if (!(floor > -REAL_MAX)) floor = d->g->exact && f->form != WIDE ? floor_of_narrow(d, f) : floor_of(d, f);
+    t->least = smaller(floor, t->least);
 }
 
 /* Whether the origin is on the inner side of the facet for certain, with all that its corners may have been rounded
