@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x7cd8457399203b0a};
+static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x45f90f80ceb346fa};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x087af29e8f088638};
+static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x375210e9d7d6b96b};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0x38600309dccd726b};
+static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0xfcb057f2b6e7bb59};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xe18daf502c62f87b, 0x4e4dcc667154d06c, 0x447ec6e1dc668494};
+static const uint64_t known[3] = {0xe18daf502c62f87b, 0x4e4dcc667154d06c, 0x87ad4bc3843644fc};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

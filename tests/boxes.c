@@ -667,12 +667,44 @@ static void slack_beyond_all(void **state)
     }
 }
 
+/* A bracket that is too wide for a number, in the frame, is not as narrow as a tolerance asks, which is too large there
+ * as well. */
+static void slack_beyond_tolerance(void **state)
+{
+    V(options) o;
+    V(result) r;
+    (void)state;
+    memset(&o, 0, sizeof o);
+    o.size = sizeof o;
+    o.rel_tol = (real)1e-4;
+    for (int power = 0; power < 100; power++) {
+        const double size = ldexp(1, -power);
+        start_body(&p.a, SEGMENT);
+        start_body(&p.b, BOX);
+        for (int i = 0; i < DIM; i++) {
+            p.a.v[0][i] = (real)(i == 1 ? -size : i == 0 ? size : 0);
+            p.a.v[1][i] = -p.a.v[0][i];
+            p.b.half[i] = (real)(i == 0 ? size : size / 2);
+        }
+        p.b.pose.m[0] = p.b.pose.m[DIM + 1] = 0;
+        p.b.pose.m[1] = (real)0.413;
+        p.b.pose.m[DIM] = (real)-0.413;
+        p.b.pose.p[0] = (real)(size / 2);
+        bind_pair(&p);
+        p.b.shape.radius = (real)size;
+        o.slack = REAL_MAX;
+        const int status = V(penetration)(&p.a.shape, &p.b.shape, &o, &r);
+        assert_true(status != GJK_OK || (double)r.upper - (double)r.lower <= 1e-3 * size);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depths_of_boxes),         cmocka_unit_test(signs_of_boxes),
         cmocka_unit_test(numbers_that_underflow),  cmocka_unit_test(axes_short_by_roundings),
-        cmocka_unit_test(in_line_in_another_unit), cmocka_unit_test(slack_beyond_all)};
+        cmocka_unit_test(in_line_in_another_unit), cmocka_unit_test(slack_beyond_all),
+        cmocka_unit_test(slack_beyond_tolerance)};
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

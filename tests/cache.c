@@ -502,6 +502,43 @@ static void after_slack(void **state)
     assert_true(r.upper - r.lower <= 2 * (cold.upper - cold.lower));
 }
 
+/* A cube whose support writes nonsense to the cache of the query that asks it. */
+static real cube_that_scribbles(const void *data, const real *dir, real *point)
+{
+    const real half[DIM] = {[0] = 1};
+    (void)data;
+    cache.count = 77777;
+    for (int i = 0; i < DIM; i++) {
+        point[i] = half[0] * (dir[i] < 0 ? -1 : 1);
+    }
+    return 0;
+}
+
+static void scribbled_at(void **state)
+{
+    static int (*const queries[])(const V(shape) *, const V(shape) *, const V(options) *,
+                                  V(result) *) = {V(distance), V(intersect), V(penetration)};
+    body a, b;
+    V(options) o = default_options();
+    (void)state;
+    start_points(&a, &b);
+    a.shape.support = cube_that_scribbles;
+    o.cache = &cache;
+    for (int k = 0; k < 3; k++) {
+        for (b.pose.p[0] = (real)0.5; b.pose.p[0] < 4; b.pose.p[0] += (real)0.25) {
+            V(result) r;
+            start_cache();
+            const quad truth_here = (quad)b.pose.p[0] - 1;
+            for (int again = 0; again < 2; again++) {
+                cache.count = again && cache.count > 1 ? 1 : cache.count;
+                assert_true(queries[k](&a.shape, &b.shape, &o, &r) >= 0);
+                assert_true((quad)r.lower <= (truth_here > 0 || k == 2 ? truth_here : 0) &&
+                            (quad)r.upper >= truth_here);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -523,6 +560,7 @@ int main(void)
         cmocka_unit_test(of_the_pair_alone),
         cmocka_unit_test(after_a_leap),
         cmocka_unit_test(after_slack),
+        cmocka_unit_test(scribbled_at),
     };
     exact_start(&best);
     return cmocka_run_group_tests_name("caches of " VARIANT, tests, NULL, NULL);

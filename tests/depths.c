@@ -655,6 +655,18 @@ static void few_steps(void **state)
     assert_true(h.deep > 0 && h.found > 0);
 }
 
+/* Of bodies that are proven to be apart the points are as far from each other as upper says. */
+static void expect_pair_of_upper(const V(result) * r)
+{
+    quad way[DIM];
+    const quad whole = (quad)(span() + far_out());
+    for (int i = 0; i < DIM; i++) {
+        way[i] = ((quad)r->point_a[i] - (quad)r->point_b[i]) / whole;
+    }
+    expect_answer("the points are not upper apart", r,
+                  !(r->lower > 0) || !is_normal() || quad_abs(norm(way) - (quad)r->upper / whole) <= (quad)(64 * U));
+}
+
 /* Cutoffs and tolerances are as for distance: what was asked for is kept, or the status says otherwise. */
 static void ask_with_tolerances(here *h)
 {
@@ -674,6 +686,7 @@ static void ask_with_tolerances(here *h)
         expect_answer("wider than asked, and the status does not say so", &r,
                       !is_normal() || width_of(&r) <= enough * (1 + 8 * U) + LEAST || r.status != GJK_OK ||
                           in_u((quad)width_of(&r), span()) <= 100);
+        expect_pair_of_upper(&r);
     }
 }
 
@@ -708,6 +721,50 @@ static void start_pair(enum kind a, enum kind b)
     start_body(&drawn.a, a);
     start_body(&drawn.b, b);
 }
+
+#if DIM == 3
+/* A box and a rod that are apart, where a tolerance ended the search while they still might have met: the points were
+ * those of the surface's lowest facet. */
+static void apart_within_tolerance(void **state)
+{
+    static const struct {
+        double half[3], m[9], p[3], radius;
+    } found[] = {
+        {{0.85682071668879156, 1.1720109887756458, 1.0383053433794087},
+         {-0.46756982393362856, 0.77612438753865598, 0.42309501865942772, -0.8492268391143355, -0.26155742442999896,
+          -0.45869542122569701, -0.24534105949585755, -0.57377578268282747, 0.78140201927827058},
+         {1.639196917246653, 0.54124498019984224, 1.0717136771752098},
+         0.3},
+        {{1.4794359104612078, 1.019838172253146, 0.72486245596076482},
+         {-0.4380424747791023, 0.36536097492414066, -0.82135872083510553, 0.52913054386770064, 0.84343018697612693,
+          0.092985951862025573, 0.72673217751498442, -0.39387419019262615, -0.56278189777606746},
+         {1.3694237095161452, 1.0440873936955293, 1.6744183952335354},
+         0},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof found / sizeof *found; k++) {
+        V(options) o = default_options();
+        V(result) r;
+        start_pair(BOX, SEGMENT);
+        for (int i = 0; i < 9; i++) {
+            drawn.b.pose.m[i] = (real)found[k].m[i];
+        }
+        for (int i = 0; i < 3; i++) {
+            drawn.a.half[i] = (real)found[k].half[i];
+            drawn.b.pose.p[i] = (real)found[k].p[i];
+            drawn.b.v[0][i] = (real)(i == 2 ? -1 : 0);
+            drawn.b.v[1][i] = (real)(i == 2);
+        }
+        bind_pair(&drawn);
+        drawn.b.shape.radius = (real)found[k].radius;
+        find_truth_of_pair();
+        o.abs_tol = (real)0.5;
+        ask_for_truth(&o, &r);
+        assert_true(r.lower > 0);
+        expect_pair_of_upper(&r);
+    }
+}
+#endif
 
 /* The least workspace, the usual one and a large one; known: as near as bodies with corners are. */
 static void expect_depth(quad truth_here, int corners_known, real radius_a, real radius_b)
@@ -996,6 +1053,43 @@ static void as_deep_several_ways(void **state)
             in_u((quad)r.lower + along_normal(&drawn.a, r.normal, 1) + along_normal(&drawn.b, r.normal, -1), span());
         expect_answer("the normal does not realise lower", &r, off <= 16);
     }
+}
+
+/* What curvature proves of round sets leaves nothing open that corners alone would close, as behind supports that are
+ * not known; nor where a set is as thin as 1e-9. */
+static void as_well_as_hidden(void **state)
+{
+    long closed = 0, thin = 0;
+    (void)state;
+    for (at = 0; at < 20 * pairs_per_family; at++) {
+        draws d = draws_from(seed, 2005, (uint64_t)at);
+        V(result) r, other;
+        draw_any(&d, &drawn.a, round_kinds[below(&d, ROUND_KINDS)]);
+        draw_any(&d, &drawn.b, at % 4 ? round_kinds[below(&d, ROUND_KINDS)] : ELLIPSOID);
+        if (at % 4 == 0) {
+            drawn.b.half[below(&d, DIM)] *= (real)magnitude(&d, -9, -4);
+        }
+        put_off(&d, between(&d, 0, 0.5));
+        bind_pair(&drawn);
+        p = &drawn;
+        const V(shape) a = hidden(&p->a.shape), b = hidden(&p->b.shape);
+        other.status = V(penetration)(&a, &b, NULL, &other);
+        if (other.status != GJK_OK || !(other.upper < 0)) {
+            continue;
+        }
+        ask(NULL, &r);
+        const double most = 4 * width_of(&other) + 256 * U * span(), width = width_of(&r);
+        expect_answer("is left open", &r, r.status == GJK_LIMIT || width <= most);
+        for (int i = 0; i < DIM && r.status != GJK_LIMIT; i++) {
+            const double off = (double)r.point_a[i] - (double)r.point_b[i] + (double)r.value * (double)r.normal[i];
+            expect_answer("the points are not depth * normal apart", &r,
+                          fabs(off) <= 64 * U * span() + 8 * sqrt(width * span()));
+        }
+        closed++;
+        thin += at % 4 == 0;
+    }
+    printf("%-6s as well as hidden: %ld closed, %ld thin\n", VARIANT, closed, thin);
+    assert_true(closed > 5 * pairs_per_family && thin > pairs_per_family);
 }
 
 /* Ellipsoids all but concentric, with many ways out about as short: where the usual room is full before the surface is
@@ -1757,6 +1851,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(pair_of_an_early_end),
 #endif
         cmocka_unit_test(tolerances),
+#if VARIANT_DIM == 3
+        cmocka_unit_test(apart_within_tolerance),
+#endif
         cmocka_unit_test(balls),
         cmocka_unit_test(capsules),
         cmocka_unit_test(boxes_along_axes),
@@ -1765,6 +1862,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(round_shapes),
         cmocka_unit_test(round_shapes_roughly),
         cmocka_unit_test(as_deep_several_ways),
+        cmocka_unit_test(as_well_as_hidden),
         cmocka_unit_test(all_but_concentric),
 #if DIM == 3
         cmocka_unit_test(tips_next_to_axes),

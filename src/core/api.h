@@ -230,11 +230,12 @@ static int unanswered(const search *q, const result *r, const options *o, const 
     return o->tight || q->stuck || coarse(q, upper);
 }
 
-/* The bracket of the distance is as narrow as asked. */
+/* The bracket of the distance is as narrow as asked. One too wide for a number is not. */
 static int narrow(const result *r, const options *o, int deep, real level)
 {
-    real far = r->upper < 0 ? -r->lower : r->upper, lower = deep ? r->lower : larger(r->lower, 0);
-    return (r->upper - lower) * level <= o->abs_tol * level + o->rel_tol * (far * level);
+    const real far = r->upper < 0 ? -r->lower : r->upper, lower = deep ? r->lower : larger(r->lower, 0);
+    const real width = (r->upper - lower) * level;
+    return width <= REAL_MAX && width <= o->abs_tol * level + o->rel_tol * (far * level);
 }
 
 /* Finishes the search without rounding, and replaces what the result says of the distance. OPEN, FAULT: that can't be
@@ -301,6 +302,9 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     usual_room own;
     goal here = scaled(g, q->d.scale);
     depth d = {.q = q, .a = a, .b = b, .g = &here, .dropped.least = REAL_MAX, .least = REAL_MAX};
+    const simplex searched = q->s;
+    real found[DIM + 1];
+    memcpy(found, weight, sizeof found);
     d.p = o->workspace ? polytope_in(o->workspace, tips_in(o->workspace_bytes)) : polytope_in(&own, USUAL_TIPS);
     if (q->met) *upper = smaller(*upper, 0);
     enum end end = fathom(&d, upper, weight);
@@ -314,7 +318,11 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
         r->upper = d.ends[2];
     }
     store(r->normal, q->normal);
-    witness(r, q, weight, a, b, 2);
+    if (r->lower > 0) { /* apart after all: the pair that upper is of */
+        q->s = searched;
+        memcpy(weight, found, sizeof found);
+    }
+    witness(r, q, weight, a, b, r->lower > 0 ? 1 : 2);
     enum end further = g->exact || end == OPEN ? FAULT : take_further(q, a, b, o, g, *upper, weight, r);
     return further == FAULT ? end : further;
 }

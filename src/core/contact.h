@@ -324,6 +324,9 @@ static int prove(depth *d, real *upper)
  * heights are up to 2: 8 (2 + 2) by floor_of, and 5 (2 + 2 sqrt(3)) by raise. */
 #define CHARGED (64 * UNIT)
 
+/* The bracket is as narrow as one that is closed. */
+static int is_bounded(const search *q, real upper) { return upper - q->lower <= 2 * q->d.doubt + q->d.slack + CHARGED; }
+
 /* Minus how deep it is, as the lowest facet has it, where that is a bound: its own height, if nothing lies beyond it;
  * else between that and the least height seen. What bounds are charged for roundings is left out. */
 static real depth_of_floor(const depth *d, enum end end, real seen)
@@ -338,7 +341,7 @@ static real depth_of_floor(const depth *d, enum end end, real seen)
 static real near_of(const depth *d, real upper, enum end end)
 {
     const search *q = d->q;
-    const int bounded = end != OPEN && d->floor && upper - q->lower <= 2 * q->d.doubt + q->d.slack + CHARGED;
+    const int bounded = end != OPEN && d->floor && is_bounded(q, upper);
     if (d->g->exact || (end != OPEN && !(d->least < REAL_MAX))) return upper;
     real value = larger(-d->least, q->lower + q->d.doubt);
     if (value > 0) value = larger(value, upper - q->d.doubt);
@@ -359,6 +362,26 @@ static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum 
     else point_out(d, weight);
 }
 
+/* Grows the surface till nothing lies beyond the lowest facet; how that ended. */
+static enum end grow_surface(depth *d)
+{
+    const enum end end = deepen(d);
+    if (end == OPEN) raise_kept(d);
+    if (end != FAULT && d->floor && d->floor->rough == ROUGH) sharpen_facet(&d->p, d->floor);
+    return end;
+}
+
+/* What is proven of the surface. Where it is grown, and dips have left the bracket open, as where a tip turned out to
+ * be of account after all, it is grown anew without them, which may take more corners. Whether that has closed it. */
+static int prove_grown(depth *d, real *upper, enum end *end)
+{
+    const int proven = prove(d, upper);
+    if (!d->dips || is_bounded(d->q, *upper) || d->q->steps >= d->g->max_steps) return proven;
+    d->closings = 0;
+    *end = do_without_dips(d) ? grow_surface(d) : FAULT;
+    return *end != FAULT && prove(d, upper);
+}
+
 /* The cores meet, or nearly so: how deep. Where the difference is flat to rounding, the search's points, which are one
  * to rounding, are the contact. What curvature proves is worth its while where all digits are asked for, and only there
  * do bounds and normal stay together with it. What can't be settled anew stands as it is known by then. */
@@ -375,12 +398,11 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     d->p.whole = &d->q->d;
     enum end end = first_surface(d);
     int flat = d->p.facets == 0;
-    if (end == OPEN && !flat) end = deepen(d);
-    if (end == OPEN) raise_kept(d);
+    if (end == OPEN && !flat) end = grow_surface(d);
     if (end == FAULT) return end;
-    if (d->floor && d->floor->rough == ROUGH) sharpen_facet(&d->p, d->floor);
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
-    const int open = !prove(d, upper) && g->exact && end == STILL && *upper - d->q->lower > MOST_OPEN;
+    const int open = !prove_grown(d, upper, &end) && g->exact && end == STILL && *upper - d->q->lower > MOST_OPEN;
+    if (end == FAULT) return end;
     point_to(d, *upper, weight, flat, &end);
     if ((g->tight || open) && !d->settled && end != FAULT && d->floor && d->q->steps < g->max_steps &&
         settle_anew(d, &end) == STILL) {

@@ -421,7 +421,7 @@ static int known(search *q, const vertex *p)
 {
     const cache *k = q->lender;
     if (!k) return 0;
-    for (uint32_t i = 0; i < k->count; i++) {
+    for (uint32_t i = 0; i < k->count && i <= DIM; i++) { /* a callback may have written to the cache since it lent */
         if (!same(load(k->a[i]), p->x) || !same(load(k->b[i]), p->y)) continue;
         q->lender = NULL;
         return 1;
