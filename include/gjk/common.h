@@ -40,11 +40,13 @@ enum gjk_status {
     GJK_OK = 0,      /* the bracket is as tight as asked; no tolerance asked: as rounding allows, given the reach */
     GJK_DECIDED = 1, /* stopped early, the question being settled: a sign proven, or the cutoff passed */
     GJK_FLOOR = 2,   /* this arithmetic yields no more: the bracket is wider than asked, or straddles contact */
-    GJK_LIMIT = 3,   /* stopped at max_steps */
-    GJK_BAD_ARGUMENT =
-        -1, /* a null pointer, a number that is negative or not finite, options without size or from the future */
-    GJK_BAD_SUPPORT = -2 /* a support gave a point that is not finite or beyond the reach, or that overflows once
-                          * placed, or points that no convex set has: the bounds crossed */
+    GJK_LIMIT = 3,   /* stopped at max_steps, or, by penetration, where the workspace was full */
+    GJK_BAD_ARGUMENT = -1, /* a null pointer; a pose, radius or option that is not finite, or negative where it may not
+                            * be; options without size or from the future; tight above 1; by penetration a workspace
+                            * that is misaligned or too small, or bytes of none */
+    GJK_BAD_SUPPORT = -2   /* a support gave a point that is not finite or beyond the reach, or that overflows once
+                            * placed, or points that no convex set has: the bounds crossed; or a ready-made one has no
+                            * data, or bad sizes */
 };
 
 /* The library's own version: major * 10000 + minor * 100 + patch. */

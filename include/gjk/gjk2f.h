@@ -78,13 +78,14 @@ typedef struct gjk2f_options {
     uint32_t workspace_bytes; /* of the workspace; 0 where there is none */
 } gjk2f_options;
 
-/* Never grows. Points are as good as the coordinates of their frame: far from its origin they round. */
+/* Never grows. point_a is a point of a, point_b one of b: apart, as far from each other as upper, the closest pair
+ * where the bracket is tight; meeting, one and the same point, by intersect to within its bracket; by penetration the
+ * deepest of each. They are as good as the coordinates of their frame: far from its origin they round. */
 typedef struct gjk2f_result {
     float value;        /* the answer, inside the bracket */
     float lower, upper; /* proven */
-    float point_a[2];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
-    float point_b[2];   /*   meeting, one and the same point of both, by intersect only to within its bracket */
-    float normal[2];    /* unit, from a to b, always: the direction that realises lower */
+    float point_a[2], point_b[2];
+    float normal[2]; /* unit, from a to b, always: the direction that realises lower */
     int32_t status;
     int32_t steps;    /* of the search that answered */
     int32_t supports; /* support calls, of both shapes, and of a warm start given up */
@@ -96,8 +97,8 @@ typedef struct gjk2f_result {
  * With options.tight, of sets whose corners are known (points, box, segment, origin, by the address of these
  * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
  * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
- * of 1280 bits and takes up to 42 KB of stack, in float 22; a pair that spans more keeps the usual bracket. A library
- * built with GJK_NO_EXACT does without. */
+ * of 1280 bits and takes up to 34 KB of stack where the compiler optimises, in float 22; a pair that spans more keeps
+ * the usual bracket. A library built with GJK_NO_EXACT does without. */
 GJK_API int gjk2f_distance(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
@@ -105,7 +106,8 @@ GJK_API int gjk2f_distance(const gjk2f_shape *a, const gjk2f_shape *b, const gjk
  *   lower > 0    apart             value = lower
  *   upper < 0    overlapping       value = upper
  *   upper == 0   they meet: proven of points, box, segment and origin, however slightly
- *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
+ *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
+ *                                  status GJK_LIMIT: not found out within max_steps
  * abs_tol, rel_tol and cutoff play no part. */
 GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
 
@@ -120,12 +122,13 @@ GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gj
  * that is full, those that can no longer matter make room, and where there are none the bracket holds all the same,
  * status GJK_LIMIT. 64 corners do for everyday polygons and round shapes. Radii take no room. cutoff and tolerances are
  * as for distance; of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth
- * down to about the least that the coordinates can spell is right to the last place. It takes up to 48 KB of stack, in
- * float 28. */
+ * down to about the least that the coordinates can spell is right to the last place. It takes up to 60 KB of stack
+ * where the compiler optimises, in float 35, its own room for corners included. */
 GJK_API int gjk2f_penetration(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
- * 7264 bytes of stack, in float 4160. Calls may run at once unless they share a workspace; what it holds before and
- * after is of no account. */
+ * 7264 bytes of stack, in float 4160; and in a library that holds this question in float too, float goes on in that
+ * where it comes to its end, of round shapes, in room of its own. Calls may run at once unless they share a workspace;
+ * what it holds before and after is of no account. */
 GJK_API size_t gjk2f_workspace_size(uint32_t corners);
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
@@ -137,7 +140,7 @@ typedef struct gjk2f_points {
     const float *v;   /* the first point */
     size_t count;      /* of points */
     uint32_t stride;   /* from point to point, in bytes, a multiple of sizeof(float); 0: packed */
-    uint32_t reserved; /* 0 */
+    uint32_t reserved; /* 0; for later versions, and not read by this one */
     float reach;      /* from gjk2f_points_reach; 0: not known, found at the price of four more support calls */
 } gjk2f_points;
 GJK_API float gjk2f_support_points(const void *points, const float dir[2], float point[2]);

@@ -78,13 +78,14 @@ typedef struct gjk3f_options {
     uint32_t workspace_bytes; /* of the workspace; 0 where there is none */
 } gjk3f_options;
 
-/* Never grows. Points are as good as the coordinates of their frame: far from its origin they round. */
+/* Never grows. point_a is a point of a, point_b one of b: apart, as far from each other as upper, the closest pair
+ * where the bracket is tight; meeting, one and the same point, by intersect to within its bracket; by penetration the
+ * deepest of each. They are as good as the coordinates of their frame: far from its origin they round. */
 typedef struct gjk3f_result {
     float value;        /* the answer, inside the bracket */
     float lower, upper; /* proven */
-    float point_a[3];   /* a point of a and one of b: apart, a closest pair, which realises upper; */
-    float point_b[3];   /*   meeting, one and the same point of both, by intersect only to within its bracket */
-    float normal[3];    /* unit, from a to b, always: the direction that realises lower */
+    float point_a[3], point_b[3];
+    float normal[3]; /* unit, from a to b, always: the direction that realises lower */
     int32_t status;
     int32_t steps;    /* of the search that answered */
     int32_t supports; /* support calls, of both shapes, and of a warm start given up */
@@ -96,8 +97,8 @@ typedef struct gjk3f_result {
  * With options.tight, of sets whose corners are known (points, box, segment, triangle, origin, by the address of these
  * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
  * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
- * of 1280 bits and takes up to 42 KB of stack, in float 22; a pair that spans more keeps the usual bracket. A library
- * built with GJK_NO_EXACT does without. */
+ * of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 27; a pair that spans more keeps
+ * the usual bracket. A library built with GJK_NO_EXACT does without. */
 GJK_API int gjk3f_distance(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
@@ -105,7 +106,8 @@ GJK_API int gjk3f_distance(const gjk3f_shape *a, const gjk3f_shape *b, const gjk
  *   lower > 0    apart             value = lower
  *   upper < 0    overlapping       value = upper
  *   upper == 0   they meet: proven of points, box, segment, triangle and origin, however slightly
- *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack
+ *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
+ *                                  status GJK_LIMIT: not found out within max_steps
  * abs_tol, rel_tol and cutoff play no part. */
 GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 
@@ -122,11 +124,13 @@ GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gj
  * ends those is max_steps, 10 to 130 steps being usual. Radii take no room. cutoff and tolerances are as for distance;
  * of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth down to about the
  * least that the coordinates can spell is right to the last place, unless the polytope comes to its end in the noise of
- * nearly flat bodies; then the bracket is the usual one. It takes up to 80 KB of stack, in float 45. */
+ * nearly flat bodies; then the bracket is the usual one. It takes up to 90 KB of stack where the compiler
+ * optimises, in float 50, its own room for corners included. */
 GJK_API int gjk3f_penetration(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
- * 13536 bytes of stack, in float 8352. Calls may run at once unless they share a workspace; what it holds before and
- * after is of no account. */
+ * 13536 bytes of stack, in float 8352; and in a library that holds this question in float too, float goes on in that
+ * where it comes to its end, of round shapes, in room of its own. Calls may run at once unless they share a workspace;
+ * what it holds before and after is of no account. */
 GJK_API size_t gjk3f_workspace_size(uint32_t corners);
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
@@ -138,7 +142,7 @@ typedef struct gjk3f_points {
     const float *v;   /* the first point */
     size_t count;      /* of points */
     uint32_t stride;   /* from point to point, in bytes, a multiple of sizeof(float); 0: packed */
-    uint32_t reserved; /* 0 */
+    uint32_t reserved; /* 0; for later versions, and not read by this one */
     float reach;      /* from gjk3f_points_reach; 0: not known, found at the price of six more support calls */
 } gjk3f_points;
 GJK_API float gjk3f_support_points(const void *points, const float dir[3], float point[3]);

@@ -295,19 +295,26 @@ static real middle(const search *q, const goal *g, real upper)
     return (r.high + (r.low + m.low)) * (1 / level);
 }
 
+/* Without a workspace of the caller's. */
+static APART enum end fathom_in_own_room(depth *d, real *upper, real weight[])
+{
+    usual_room own;
+    d->p = polytope_in(&own, USUAL_TIPS);
+    return fathom(d, upper, weight);
+}
+
 /* The cores meet, or rounding leaves it open: the depth instead of the distance. */
 static APART enum end plumb(search *q, const shape *a, const shape *b, const options *o, const goal *g, real *upper,
                             real weight[], result *r)
 {
-    usual_room own;
     goal here = scaled(g, q->d.scale);
     depth d = {.q = q, .a = a, .b = b, .g = &here, .dropped.least = REAL_MAX, .least = REAL_MAX};
     const simplex searched = q->s;
     real found[DIM + 1];
     memcpy(found, weight, sizeof found);
-    d.p = o->workspace ? polytope_in(o->workspace, tips_in(o->workspace_bytes)) : polytope_in(&own, USUAL_TIPS);
     if (q->met) *upper = smaller(*upper, 0);
-    enum end end = fathom(&d, upper, weight);
+    if (o->workspace) d.p = polytope_in(o->workspace, tips_in(o->workspace_bytes));
+    enum end end = o->workspace ? fathom(&d, upper, weight) : fathom_in_own_room(&d, upper, weight);
     if (end == FAULT || !(q->lower <= *upper)) return FAULT;
     if (*upper < 0) q->turned = 0;
     bracket(r, &q->d, q->lower, *upper, a, b);

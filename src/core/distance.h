@@ -17,7 +17,7 @@
 #define SIDESTEPS 6
 #define SHARPENINGS 8
 
-/* What would settle the question, in lengths of the scaled frame. */
+/* What would settle the question: in the caller's lengths, and for the search in those of its frame (scaled). */
 typedef struct goal {
     real beyond;           /* stop when proven to be more than this apart */
     real within;           /* stop when proven to be less than this apart */

@@ -24,7 +24,6 @@ HOT dvec dload(const real *c)
     return (dvec){_mm_cvtps_pd(_mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)(const void *)c))};
 }
 HOT void dstore(real *c, dvec a) { _mm_storel_pi((__m64 *)(void *)c, _mm_cvtpd_ps(a.c)); }
-HOT void dpart(double *c, dvec a) { _mm_storeu_pd(c, a.c); }
 HOT dvec djoin(const double *c) { return (dvec){_mm_loadu_pd(c)}; }
 HOT dvec dadd(dvec a, dvec b) { return (dvec){_mm_add_pd(a.c, b.c)}; }
 HOT dvec dsub(dvec a, dvec b) { return (dvec){_mm_sub_pd(a.c, b.c)}; }
@@ -86,11 +85,6 @@ HOT void dstore(real *c, dvec a)
 {
     c[0] = (real)a.c[0];
     c[1] = (real)a.c[1];
-}
-HOT void dpart(double *c, dvec a)
-{
-    c[0] = a.c[0];
-    c[1] = a.c[1];
 }
 HOT dvec djoin(const double *c) { return dvec_of(c[0], c[1]); }
 HOT dvec dadd(dvec a, dvec b) { return dvec_of(a.c[0] + b.c[0], a.c[1] + b.c[1]); }

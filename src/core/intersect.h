@@ -19,7 +19,7 @@ static vec outpost(int k)
     return load(corners[k]);
 }
 
-/* Moves the origin of the search to t. */
+/* Moves the origin of the search to c. */
 static void move(search *q, vec c)
 {
     q->d.c = c;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The difference A - B = { x - y : x in A, y in B }, seen through support calls. The only file that calls user code.
+/* The difference A - B = { x - y : x in A, y in B }, seen through support calls: no other file calls user code, but for
+ * a couple's two sets and to find a reach (shapes.h, reach.h).
  *
  * The frame: A's own position is the origin, so that where the bodies are in the world costs nothing; everything is
  * scaled by one power of two, which costs nothing either, so that squares and their squares stay within range. A corner

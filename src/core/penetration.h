@@ -619,7 +619,8 @@ static real floor_of_narrow(const depth *d, const facet *f)
     for (int k = 0; k < d->p.facets; k++) {
         const facet *g = &d->p.facet[k];
         int other;
-        if (g->form == WIDE && are_neighbours(f, g, &other)) floor = larger(below_height(fine_floor(&d->p, f, g->n)), floor);
+        if (g->form == WIDE && are_neighbours(f, g, &other))
+            floor = larger(below_height(fine_floor(&d->p, f, g->n)), floor);
     }
     return floor;
 }
@@ -918,7 +919,8 @@ static int look_along_edges(depth *d, const facet *f)
         if (dot(v, v) > 0 && length(v) <= 2 * f->height && !ask_along(d, unit_of(v, v), &t)) return 0;
     }
 #endif
-    return d && f;
+    (void)d, (void)f;
+    return 1;
 }
 
 /* Looks for the least height near the lowest facet, where facets are used up. 0: a support's answer was none. */

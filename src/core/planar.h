@@ -870,8 +870,7 @@ HOT int settle_polygons(difference *d, const shape *a, const shape *b)
     d->doubt = PLANAR_DOUBT * root(square);
     d->a.norm = root(map_a);
     d->b.norm = root(map_b);
-    return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN && square < PLAIN * PLAIN &&
-           a->radius >= 0 && b->radius >= 0 && a->radius + b->radius < PLAIN;
+    return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN && are_of_plain_size(square, a, b);
 }
 
 /* The everyday question of two polygons: how far apart, or whether they meet. 0: it is left to the whole answer, which

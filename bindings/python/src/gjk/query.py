@@ -27,10 +27,11 @@ class Result(NamedTuple):
     upper: float
     """Proven: the truth is not above."""
     point_a: tuple[float, ...]
-    """A point of a. Apart, point_a and point_b are a closest pair, which realises upper; ..."""
+    """A point of a. Apart, point_a and point_b are as far from each other as upper, the closest pair where the bracket
+    is tight; ..."""
     point_b: tuple[float, ...]
-    """... meeting, they are one and the same point of both; by `penetration` that of a deepest in b, and that of b
-    deepest in a."""
+    """... meeting, they are one and the same point of both, by `intersect` to within its bracket; by `penetration` that
+    of a deepest in b, and that of b deepest in a."""
     normal: tuple[float, ...]
     """Unit, from a to b, always: the direction that realises lower."""
     status: Status
@@ -123,7 +124,7 @@ def distance(
     The query stops at upper - lower <= abs_tol + rel_tol * upper; both 0, the default: as tight as rounding allows.
     cutoff > 0: stop once the answer is proven above it (Status.DECIDED). max_steps 0: 256. slack is how far a
     support may fall short of the farthest point, beyond its rounding; it widens the bracket. tight: points, boxes,
-    segments, triangles and spheres, in any pose and rounded or not, are answered to the last bit, by exact arithmetic;
+    segments, capsules, triangles and spheres, in any pose and rounded or not, are answered to the last bit, by exact arithmetic;
     for other shapes it changes nothing.
     precision "float" rounds the shapes to single precision and solves there: the bracket is then of the distance
     between the rounded shapes.
