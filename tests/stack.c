@@ -95,11 +95,11 @@ static void within_what_the_header_says(void **state)
             draws d = draws_from(17, (uint64_t)family, at);
             draw_pair(&d, (enum family)family, &q.p);
             bind_pair(&q.p);
-            for (int k = 0; k < 8; k++) {
+            for (uint32_t k = 0; k < 8; k++) {
                 memset(&q.options, 0, sizeof q.options);
                 q.options.size = sizeof q.options;
                 q.options.tight = k % 2;
-                q.query = k / 2 < 2 ? k / 2 : 2;
+                q.query = k / 2 < 2 ? (int)(k / 2) : 2;
                 if (k / 2 == 3) {
                     q.options.workspace = room.bytes;
                     q.options.workspace_bytes = (uint32_t)V(workspace_size)(64);

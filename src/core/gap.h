@@ -133,6 +133,7 @@ static inline int find_nearest(const difference *d, const gauge *k, int at, real
     if (of_a >= 0 && of_b >= 0) meet_on_edges(d, k, of_a, of_b, x, y);
     return 1;
 #else
+    (void)d;
     return faced;
 #endif
 }

@@ -586,6 +586,7 @@ static real floor_of(const depth *d, const facet *f)
 static int are_neighbours(const facet *f, const facet *g, int *other)
 {
     int shared = 0;
+    *other = f->v[0];
     for (int i = 0; i < DIM; i++) {
         int common = 0;
         for (int k = 0; k < DIM; k++) common |= f->v[i] == g->v[k];
