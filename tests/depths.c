@@ -464,17 +464,15 @@ static void pairs_of_other_seeds(void **state)
                                        {"gjk3", 3, EDGES, 87},
                                        {"gjk3", 8, EDGES, 199}};
     const uint64_t usual = seed;
+    const found_pair *f;
     (void)state;
-    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
+    for (size_t k = 0; (f = next_found(pairs, sizeof pairs / sizeof *pairs, &k)) != NULL;) {
         figures s;
         memset(&s, 0, sizeof s);
-        s.family = pairs[k].family;
+        s.family = f->family;
         s.name = family_name[s.family];
-        if (strcmp(pairs[k].variant, VARIANT) != 0) {
-            continue;
-        }
-        seed = pairs[k].seed;
-        at = pairs[k].at;
+        seed = f->seed;
+        at = f->at;
         one_pair(&s);
         print_faults(&s.faults, s.name);
         assert_int_equal(s.faults.count, 0);
@@ -1732,15 +1730,14 @@ static void bricks_on_one_spot(void **state)
 {
     static const found_pair found[] = {
         {"gjk3", 22, HULLS, 901}, {"gjk3", 25, HULLS, 2476}, {"gjk3f", 149, HULLS, 3949}, {"gjk3f", 155, HULLS, 3499}};
+    const found_pair *f;
     double worst = 0;
     (void)state;
     for (int at_pair = 0; at_pair < 4000; at_pair++) {
         worst = fmax(worst, flaw_of_bricks(seed, at_pair));
     }
-    for (size_t k = 0; k < sizeof found / sizeof *found; k++) {
-        if (strcmp(found[k].variant, VARIANT) == 0) {
-            worst = fmax(worst, flaw_of_bricks(found[k].seed, found[k].at));
-        }
+    for (size_t k = 0; (f = next_found(found, sizeof found / sizeof *found, &k)) != NULL;) {
+        worst = fmax(worst, flaw_of_bricks(f->seed, f->at));
     }
     printf("%-6s bricks on one spot: points off the normal, or bounds apart, by %.1f u\n", VARIANT, worst);
     assert_true(worst <= 32);

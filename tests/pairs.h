@@ -78,6 +78,18 @@ typedef struct found_pair {
     long at;
 } found_pair;
 
+/* Of so many the next of this variant, from the k-th on, which k is moved beyond; NULL: there is none. */
+static inline const found_pair *next_found(const found_pair *pairs, size_t count, size_t *k)
+{
+    while (*k < count) {
+        const found_pair *f = &pairs[(*k)++];
+        if (strcmp(f->variant, VARIANT) == 0) {
+            return f;
+        }
+    }
+    return NULL;
+}
+
 /* The bodies point into the pair: it is bound again wherever it is copied or changed. */
 static inline void bind_pair(pair *p)
 {
