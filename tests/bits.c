@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x45f90f80ceb346fa};
+static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x062cc32a984d168d};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
 static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x375210e9d7d6b96b};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0xfcb057f2b6e7bb59};
+static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0xe81497eea7ee0102};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xe18daf502c62f87b, 0x4e4dcc667154d06c, 0x87ad4bc3843644fc};
+static const uint64_t known[3] = {0xe18daf502c62f87b, 0x4e4dcc667154d06c, 0x58986be4920c3156};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

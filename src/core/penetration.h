@@ -1038,6 +1038,15 @@ static int is_proven(const depth *d, const facet *f)
     return at && !d->narrowed && floor_of(d, f) >= at->floor - d->q->d.doubt / 2;
 }
 
+/* The way out of a proven facet is asked, too, where it is another than the dip's: of two that are as short to rounding
+ * either may have the tighter bracket. 0: a support's answer was none. */
+static int ask_floor_beside_dip(depth *d, const facet *f)
+{
+    tip t;
+    if (dot(f->n, d->dips->best->n) >= CLOSE_BY || d->q->steps >= d->g->max_steps) return 1;
+    return d->least - f->height <= 2 * UNIT + d->q->d.slack || ask_along(d, f->n, &t);
+}
+
 /* The lowest dip, if its tip lies beyond the facet; NULL: it does not, or is planted. */
 static dip *dip_beyond(depth *d, const facet *f)
 {
@@ -1075,6 +1084,7 @@ static enum end deepen(depth *d)
         d->floor = f;
         if (f->done) return d->narrowed ? OPEN : STILL; /* a new facet by a wall may be lower, and no noise */
         if (is_proven(d, f)) {
+            if (!ask_floor_beside_dip(d, f)) return FAULT;
             if (goes_around(d, d->dips->best->floor)) return CLOSE;
             if (!do_without_dips(d)) return FAULT;
             continue;
