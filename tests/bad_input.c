@@ -298,6 +298,84 @@ static void point_sets(void **state)
     expect(GJK_BAD_SUPPORT);
 }
 
+#define ROOM_FOR_INDEX 1024
+
+static void no_index(V(indexed_points) * c)
+{
+    static uint32_t room[ROOM_FOR_INDEX];
+    assert_int_equal(V(index_points)(c, NULL, 0), 0);
+    assert_int_equal(V(index_points)(c, room, sizeof room), 0);
+    if (c) {
+        assert_int_equal(c->points.indexed, 0);
+    }
+}
+
+/* An index is made of sound points alone, in memory that it fits; one of another number of points is not looked at. */
+static void indexes(void **state)
+{
+    static uint32_t room[ROOM_FOR_INDEX], guard = 0x5a5a5a5a;
+    real v[40][DIM], out[2][DIM];
+    const V(points) points = {v[0], 40, 0, 0, 2};
+    V(indexed_points) c = {points, NULL};
+    (void)state;
+    for (int k = 0; k < 40; k++) {
+        for (int i = 0; i < DIM; i++) {
+            v[k][i] = (real)(((k + 1) * (i + 3) * 7) % 11) / 8 - (real)0.5;
+        }
+    }
+    for (int i = 0; i < DIM; i++) {
+        v[39][i] = (real)0.875; /* the farthest along dir */
+    }
+    no_index(NULL);
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        const real was = v[k % 40][k % DIM];
+        v[k % 40][k % DIM] = bad_number(k);
+        no_index(&c);
+        v[k % 40][k % DIM] = was;
+        c.points.reach = bad_number(k);
+        no_index(&c);
+        c.points = points;
+    }
+    c.points.reach = 0;
+    no_index(&c);
+    c.points.reach = (real)0.25;
+    no_index(&c);
+    c.points = points;
+    c.points.count = 0;
+    no_index(&c);
+    c.points.count = (size_t)1 << 31;
+    no_index(&c);
+    c.points = points;
+    c.points.v = NULL;
+    no_index(&c);
+    c.points = points;
+    assert_int_equal(V(index_points)(&c, (char *)room + 1, sizeof room - 1), 0);
+
+    const size_t bytes = V(index_points)(&c, NULL, 0);
+    assert_true(bytes > 0 && bytes < sizeof room);
+    for (size_t less = 0; less < bytes; less += sizeof *room) {
+        room[less / sizeof *room] = guard;
+        assert_int_equal(V(index_points)(&c, room, less), bytes);
+        assert_true(c.points.indexed == 0 && room[less / sizeof *room] == guard);
+    }
+    assert_int_equal(V(index_points)(&c, room, bytes), bytes);
+    assert_true(c.points.indexed == 1 && c.index == room);
+
+    const real dir[DIM] = {(real)0.5, 1};
+    for (size_t count = 40; count > 30; count--) {
+        c.points.count = count;
+        V(points) scanned = points;
+        scanned.count = count;
+        assert_true(V(support_points)(&c, dir, out[0]) == V(support_points)(&scanned, dir, out[1]));
+        assert_memory_equal(out[0], out[1], sizeof out[0]);
+    }
+    c.points = points;
+    c.points.indexed = 1;
+    c.index = NULL; /* that is none */
+    assert_true(V(support_points)(&c, dir, out[0]) == V(support_points)(&points, dir, out[1]));
+    assert_memory_equal(out[0], out[1], sizeof out[0]);
+}
+
 /* A singular map is legal: the set is flat, on a line, or one point. */
 static void singular_poses(void **state)
 {
@@ -872,6 +950,7 @@ int main(void)
         cmocka_unit_test_setup(sizes_of_0, fresh),
         cmocka_unit_test_setup(points_not_finite, fresh),
         cmocka_unit_test_setup(point_sets, fresh),
+        cmocka_unit_test_setup(indexes, fresh),
         cmocka_unit_test_setup(singular_poses, fresh),
         cmocka_unit_test_setup(callbacks_not_finite, fresh),
         cmocka_unit_test_setup(callback_writes_nothing, fresh),

@@ -27,7 +27,8 @@ typedef struct body {
     enum kind kind;
     int count;                  /* of points */
     real v[MAX_POINTS][DIM];    /* points, segment, triangle */
-    const real *cloud;          /* cloud: its coordinates, point by point */
+    const real *cloud;          /* cloud: its coordinates, point by point, */
+    const uint32_t *index;      /*   and their index, if they have one */
     real half[DIM];             /* box, ellipsoid */
     real radius, half_length;   /* ball, cylinder, cone, disc; the rounding is shape.radius */
     const struct body *part[2]; /* sum, hull */
@@ -35,6 +36,7 @@ typedef struct body {
     V(shape) shape; /* from here on: set by bind */
     union {
         V(points) points;
+        V(indexed_points) indexed;
         V(box) box;
         V(segment) segment;
         V(ball) ball;
@@ -82,9 +84,13 @@ static inline void bind(body *b)
         b->set.points.v = points_of(b);
         b->set.points.count = (size_t)b->count;
         b->set.points.stride = 0;
-        b->set.points.reserved = 0;
+        b->set.points.indexed = 0;
         b->set.points.reach = 0;
         b->set.points.reach = V(points_reach)(&b->set.points);
+        if (b->kind == CLOUD && b->index) {
+            b->set.points.indexed = 1;
+            b->set.indexed.index = b->index;
+        }
         break;
     case BOX:
         b->shape.support = V(support_box);

@@ -724,6 +724,9 @@ static inline void draw_neighbours(draws *d, pair *p)
 
 #define MOST_CLOUDS 8
 
+#define MOST_OF_CLOUD 2000
+#define INDEX_OF_CLOUD (8 * MOST_OF_CLOUD)
+
 /* Half of the clouds are spread by chance, half along a spiral, which makes many of nearly the same rank. Made once. */
 static inline void make_cloud(int which, int count, real *v)
 {
@@ -751,19 +754,35 @@ static inline void make_cloud(int which, int count, real *v)
     }
 }
 
+/* Every other one of either kind. */
+static inline int has_index(int which) { return which / 2 % 2; }
+
+static inline void index_cloud(body *b, uint32_t *index)
+{
+    bind(b);
+    if (V(index_points)(&b->set.indexed, index, INDEX_OF_CLOUD * sizeof *index) > INDEX_OF_CLOUD * sizeof *index) {
+        abort();
+    }
+}
+
 static inline void draw_cloud(draws *d, body *b)
 {
     static const int counts[MOST_CLOUDS] = {200, 200, 500, 500, 1000, 1000, 2000, 2000};
-    static real points[MOST_CLOUDS][2000 * DIM];
+    static real points[MOST_CLOUDS][MOST_OF_CLOUD * DIM];
+    static uint32_t index[MOST_CLOUDS][INDEX_OF_CLOUD];
     static int made[MOST_CLOUDS];
     int which = below(d, MOST_CLOUDS);
-    if (!made[which]) {
-        make_cloud(which, counts[which], points[which]);
-        made[which] = 1;
-    }
     start_body(b, CLOUD);
     b->count = counts[which];
     b->cloud = points[which];
+    if (!made[which]) {
+        make_cloud(which, counts[which], points[which]);
+        if (has_index(which)) {
+            index_cloud(b, index[which]);
+        }
+        made[which] = 1;
+    }
+    b->index = has_index(which) ? index[which] : NULL;
     turn(d, b, 100);
     scale_body(b, between(d, 0.5, 2));
 }

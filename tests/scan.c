@@ -37,7 +37,7 @@ static list any_list(int kind)
         step = DIM + below_any(WIDEST - DIM + 1) * below_any(2);
     draw_points(kind, count, step);
     real reach = kind == 1 ? 4 : kind == 2 ? 2000 : 2;
-    return (list){v, (size_t)count, (size_t)step, reach};
+    return (list){v, (size_t)count, (size_t)step, reach, NULL};
 }
 
 static vec any_direction(int kind)
@@ -152,7 +152,7 @@ static size_t any_place(size_t n)
 static void check_long(size_t n, int rounds)
 {
     const size_t step = DIM + (size_t)below_any(2) * (size_t)below_any(WIDEST - DIM + 1);
-    const list l = {v, n, step, 256};
+    const list l = {v, n, step, 256, NULL};
     for (int i = 0; i < rounds; i++) {
         const vec d = any_direction(0);
         draw_points(0, (int)n, (int)step);
@@ -215,13 +215,77 @@ static void no_sum(void **state)
     }
 }
 
+#define MOST_OF_INDEX (1 << 20)
+
+/* With an index of its own. */
+static list indexed_list(list l, size_t *bytes)
+{
+    static uint32_t memory[MOST_OF_INDEX];
+    indexed_points cloud = {{l.v, l.count, (uint32_t)(l.step * sizeof(real)), 0, l.reach}, NULL};
+    *bytes = pub(index_points)(&cloud, NULL, 0);
+    assert_true(*bytes > 0 && *bytes <= sizeof memory);
+    assert_true(cloud.index == NULL && !cloud.points.indexed);
+    assert_true(pub(index_points)(&cloud, memory, *bytes) == *bytes);
+    assert_true(cloud.index == memory && cloud.points.indexed == 1);
+    return list_of_cloud(&cloud.points);
+}
+
+/* Where cells of so many a side meet, but for some roundings. */
+static vec direction_between_cells(uint32_t side)
+{
+    vec d;
+    for (int i = 0; i < DIM; i++)
+        d.c[i] = (2 * (real)below_any((int)side + 1) / (real)side - 1) * (1 + (real)(below_any(5) - 2) * UNIT);
+    d.c[below_any(DIM)] = below_any(2) ? 1 : -1;
+    return mul(d, any_real() + 2);
+}
+
+static void draw_on_ball(list *l)
+{
+    for (size_t k = 0; k < l->count; k++) {
+        vec x;
+        do x = any_direction(0);
+        while (!(dot(x, x) > (real)0.01));
+        store(v + k * l->step, mul(x, 1 / root(dot(x, x))));
+    }
+}
+
+/* What is found by an index is what is found without, of points of any kind, along ways of any kind. */
+static void by_an_index(void **state)
+{
+    long looked_at = 0, of = 0;
+    (void)state;
+    for (int i = 0; i < 2000; i++) {
+        const int kind = i % 5;
+        list l = any_list(kind % 3);
+        size_t bytes;
+        if (kind > 2) draw_on_ball(&l);
+        vec d = any_direction(0);
+        if (kind == 4) raise_two(&l, d), l.reach = 128;
+        const list with = indexed_list(l, &bytes);
+        for (int k = 0; k < 40; k++) {
+            if (k > 0 || kind != 4)
+                d = k % 3 == 0 ? direction_between_cells(with.index[PER_SIDE]) : any_direction(k % 3);
+            if (!(peak(d) > 0)) continue;
+            const size_t best = one_after_another(&l, d), first = first_of_highest(&l, d);
+            assert_true(farthest_among(&with, d, CAREFUL) == best);
+            assert_true(farthest_among(&with, d, WARY) == best);
+            assert_true(farthest_among(&with, d, HASTY) == first);
+            assert_true(farthest_among(&with, d, FIRST_SIGHT) == first);
+        }
+        if (kind != 3 || l.count < 100) continue;
+        looked_at +=
+            (long)(bytes / sizeof(uint32_t)) - (long)(BEGINS + 1 + FACES * cells_of_face(with.index[PER_SIDE]));
+        of += (long)(FACES * cells_of_face(with.index[PER_SIDE]) * l.count);
+    }
+    assert_true(looked_at < of / 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whichever_way),
-        cmocka_unit_test(wherever_they_are),
-        cmocka_unit_test(no_numbers),
-        cmocka_unit_test(no_sum),
+        cmocka_unit_test(whichever_way), cmocka_unit_test(wherever_they_are), cmocka_unit_test(no_numbers),
+        cmocka_unit_test(no_sum),        cmocka_unit_test(by_an_index),
     };
     return cmocka_run_group_tests_name("scans", tests, NULL, NULL);
 }

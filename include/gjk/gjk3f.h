@@ -139,15 +139,28 @@ GJK_API size_t gjk3f_workspace_size(uint32_t corners);
 
 /* The convex hull of a point cloud. */
 typedef struct gjk3f_points {
-    const float *v;   /* the first point */
-    size_t count;      /* of points */
-    uint32_t stride;   /* from point to point, in bytes, a multiple of sizeof(float); 0: packed */
-    uint32_t reserved; /* 0; for later versions, and not read by this one */
-    float reach;      /* from gjk3f_points_reach; 0: not known, found at the price of six more support calls */
+    const float *v;  /* the first point */
+    size_t count;     /* of points */
+    uint32_t stride;  /* from point to point, in bytes, a multiple of sizeof(float); 0: packed */
+    uint32_t indexed; /* 0; 1: these are the points of a gjk3f_indexed_points, with its index */
+    float reach;     /* from gjk3f_points_reach; 0: not known, found at the price of six more support calls */
 } gjk3f_points;
 GJK_API float gjk3f_support_points(const void *points, const float dir[3], float point[3]);
 /* The largest distance of a point of the cloud from the origin, rounded up. NaN: bad points. */
 GJK_API float gjk3f_points_reach(const gjk3f_points *points);
+
+/* A cloud of many points with an index: which of them may be the farthest, by direction. A support looks at these
+ * alone, and finds the same point, to the bit; from about 100 points on that pays. */
+typedef struct gjk3f_indexed_points {
+    gjk3f_points points;    /* data of a shape is their address, or this one's: they are the same */
+    const uint32_t *index; /* the caller's memory, which must outlive its use */
+} gjk3f_indexed_points;
+/* Makes the index of cloud->points, whose reach is set, in memory of so many bytes, aligned for a uint32_t, and gives
+ * it to the cloud if it fits there; if not, the cloud has none. Returns how many bytes it takes: ask with NULL and 0
+ * first. Of points on a ball they are about 20 a point. 0: the points are bad, too many (2^31) or too large (the
+ * largest number / 8), their reach is not known or too small, or the memory is not aligned. The index holds as long as
+ * the points stay as they are. */
+GJK_API size_t gjk3f_index_points(gjk3f_indexed_points *cloud, void *memory, size_t bytes);
 
 /* |x| <= half[0], |y| <= half[1], |z| <= half[2] */
 typedef struct gjk3f_box {

@@ -218,15 +218,30 @@ static inline unsigned not_above(const body *k, size_t from, vec way, real most)
     return eight_as_large(high, in_all(-most));
 }
 
+/* What fall_of has found so far. */
+typedef struct descent {
+    real least;
+    vec x;
+} descent;
+
+static inline void look_for_fall(descent *f, const sight *e, const body *k, const simplex *s, size_t member,
+                                 const real rise[DIM + 1], real sign, vec y)
+{
+    if (same(y, member_of(corner(s, 0), member))) return;
+    const real far = sign * rise_to(e, k, s, member, rise, y);
+    if (far < f->least) *f = (descent){far, y};
+}
+
 /* How far any corner of the body leads down the way from the simplex's first, or with sign -1 up: not above 0; x is
- * that corner. Rounded heights tell which corners do not; a box's edges are asked one by one. */
+ * that corner. Rounded heights tell which corners do not, or an index; a box's edges are asked one by one. */
 static real fall_of(const sight *e, const body *k, const simplex *s, size_t member, const real rise[DIM + 1], real sign,
                     vec *x)
 {
     vec first = *x = member_of(corner(s, 0), member);
     vec rough = mul(k->posed ? pull(k->m, e->way.high) : e->way.high, sign);
-    real far = k->size == 0 ? 0 : k->reach * k->grain, least = 0, sum = 0;
-    real clear = 64 * UNIT * (k->norm * far) * spread(e->way.high);
+    const real far = k->size == 0 ? 0 : k->reach * k->grain;
+    real sum = 0;
+    const real clear = 64 * UNIT * (k->norm * far) * spread(e->way.high);
     for (int i = 0; i < DIM && k->asked == AS_BOX; i++) {
         vec y = first;
         y.c[i] = -y.c[i];
@@ -237,19 +252,23 @@ static real fall_of(const sight *e, const body *k, const simplex *s, size_t memb
         x->c[i] = y.c[i];
     }
     if (k->asked == AS_BOX) return sum;
-    clear += dot(mul(first, k->grain), rough);
-    for (size_t i = 0; i < k->list.count; i += EIGHT) {
-        const size_t from = k->list.count < EIGHT ? 0 : later_eight(i, k->list.count - EIGHT);
-        for (unsigned low = not_above(k, from, rough, clear); low; low &= low - 1) {
-            const vec y = nth_of(&k->list, from + first_bit(low));
-            if (same(y, first)) continue;
-            const real fall = sign * rise_to(e, k, s, member, rise, y);
-            if (!(fall < least)) continue;
-            least = fall;
-            *x = y;
+    descent f = {0, first};
+    candidates those;
+    const real high = dot(mul(first, k->grain), rough) + clear;
+    if (clear <= LOWER / 2 * UNIT * far * peak(rough) && look_up(&k->list, mul(rough, -1), &those)) {
+        for (; those.from < those.end; those.from++) {
+            const vec y = nth_of(&k->list, *those.from);
+            if (!(dot(mul(y, k->grain), rough) > high)) look_for_fall(&f, e, k, s, member, rise, sign, y);
+        }
+    } else {
+        for (size_t i = 0; i < k->list.count; i += EIGHT) {
+            const size_t from = k->list.count < EIGHT ? 0 : later_eight(i, k->list.count - EIGHT);
+            for (unsigned low = not_above(k, from, rough, high); low; low &= low - 1)
+                look_for_fall(&f, e, k, s, member, rise, sign, nth_of(&k->list, from + first_bit(low)));
         }
     }
-    return least;
+    *x = f.x;
+    return f.least;
 }
 
 /* The way's length. */

@@ -68,14 +68,15 @@ HOT int list_flat(const shape *k, real run[RUN * DIM], flat_list *s)
         if (!p || !p->v) return 0;
         const size_t step = stride_of(p);
         if (p->count - 1 > PLACES - 1 || step < DIM || p->stride % sizeof(real) != 0 || !(p->reach > TINY)) return 0;
-        *s = (flat_list){{p->v, p->count, step, 0}, (double)p->reach, smaller(p->reach * (1 + 16 * UNIT), REAL_MAX)};
+        *s = (flat_list){
+            {p->v, p->count, step, 0, NULL}, (double)p->reach, smaller(p->reach * (1 + 16 * UNIT), REAL_MAX)};
         return 1;
     }
     s->limit = REAL_MAX;
     if (k->support == pub(support_segment)) {
         const segment *e = k->data;
         if (!e) return 0;
-        s->from = (list){e->v[0], 2, DIM, 0};
+        s->from = (list){e->v[0], 2, DIM, 0, NULL};
         const dvec first = dsizes(dload(e->v[0])), second = dsizes(dload(e->v[1]));
         const dvec spreads = dadd(dfirsts(first, second), dseconds(first, second));
         s->reach = dfirst(dlarger(spreads, dswapped(spreads)));
@@ -86,10 +87,10 @@ HOT int list_flat(const shape *k, real run[RUN * DIM], flat_list *s)
             run[DIM * i] = i & 1 ? e->half[0] : -e->half[0];
             run[DIM * i + 1] = i & 2 ? e->half[1] : -e->half[1];
         }
-        s->from = (list){run, RUN, DIM, 0};
+        s->from = (list){run, RUN, DIM, 0, NULL};
         s->reach = (double)e->half[0] + (double)e->half[1];
     } else {
-        s->from = (list){nothing, 1, DIM, 0};
+        s->from = (list){nothing, 1, DIM, 0, NULL};
         s->reach = 0;
         return k->support == pub(support_origin);
     }

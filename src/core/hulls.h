@@ -26,7 +26,7 @@ HOT int take_hull(body *k, const shape *s)
     k->posed = s->pose != NULL;
     if (k->posed) k->m = s->pose->m;
     k->asked = AS_LIST;
-    k->list = (list){p->v, p->count, DIM, p->reach};
+    k->list = (list){p->v, p->count, DIM, p->reach, index_of_cloud(p)};
     know_reach(k, p->reach);
     return 1;
 }

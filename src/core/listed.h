@@ -29,15 +29,15 @@ static inline int list_corners(body *k, const shape *s)
     } else if (s->support == pub(support_segment)) {
         const segment *e = s->data;
         if (!e) return 0;
-        k->list = (list){e->v[0], 2, DIM, 0};
+        k->list = (list){e->v[0], 2, DIM, 0, NULL};
 #if DIM == 3
     } else if (s->support == pub(support_triangle)) {
         const triangle *t = s->data;
         if (!t) return 0;
-        k->list = (list){t->v[0], 3, DIM, 0};
+        k->list = (list){t->v[0], 3, DIM, 0, NULL};
 #endif
     } else {
-        k->list = (list){nothing, 1, DIM, padded(0)};
+        k->list = (list){nothing, 1, DIM, padded(0), NULL};
         if (s->support != pub(support_origin)) return 0;
     }
     return 1;
@@ -193,15 +193,15 @@ static inline int ask_for(difference *d, vec v, int hasty, vertex *p)
 /* A point or a segment, which has no inside. */
 static inline int is_thin(const body *k) { return k->asked != AS_BOX && k->list.count < 3; }
 
-/* Of a long list some corners do for first steps; of a shorter one all take hardly longer. */
+/* Of a long list some corners do for first steps; of a shorter one, or one with an index, all take hardly longer. */
 #define LONG 512
-static inline int is_long(const body *k) { return k->asked == AS_LIST && k->list.count >= LONG; }
+static inline int is_long(const body *k) { return k->asked == AS_LIST && k->list.count >= LONG && !k->list.index; }
 
 /* One corner in so many, a power of 4: so few, or up to four times as many. 1: of a list as short as that all. */
 static size_t share_of(const body *k, size_t few)
 {
     size_t n = 1;
-    while (k->asked == AS_LIST && k->list.count / n >= 4 * few) n *= 4;
+    while (k->asked == AS_LIST && !k->list.index && k->list.count / n >= 4 * few) n *= 4;
     return n;
 }
 
@@ -214,11 +214,15 @@ static void thin_out(body *k, size_t n, size_t few)
     k->list.step *= n;
 }
 
-/* x is a corner of the set. */
+/* x is a corner of the set. By an index it is found at once where it lies farthest out as seen from the origin. */
 static inline int is_corner(const body *k, vec x)
 {
     const list *l = &k->list;
+    candidates s;
     if (k->asked == AS_BOX) return same(corner_of_box(k->data, x), x);
+    if (look_up(l, x, &s))
+        for (; s.from < s.end; s.from++)
+            if (same(nth_of(l, *s.from), x)) return 1;
     for (size_t i = 0; i < l->count; i++)
         if (l->v[i * l->step] == x.c[0] && same(load(l->v + i * l->step), x)) return 1;
     return 0;

@@ -134,7 +134,7 @@ static list corners_of(const shape *s)
     static const real none[DIM];
     const points *p = s->data;
     if (s->support == pub(support_points)) return list_of_cloud(p);
-    return (list){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM, 0};
+    return (list){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM, 0, NULL};
 }
 
 /* Corners that may be the highest. */

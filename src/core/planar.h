@@ -67,7 +67,7 @@ static inline void list_places(const body *k, cluster *p)
         p->box[DIM * i] = i & 1 ? half[0] : -half[0];
         p->box[DIM * i + 1] = i & 2 ? half[1] : -half[1];
     }
-    p->of_box = (list){p->box, RUN, DIM, 0};
+    p->of_box = (list){p->box, RUN, DIM, 0, NULL};
     p->from = &p->of_box;
 }
 
@@ -854,7 +854,7 @@ HOT int list_polygon(body *k, const shape *s)
     k->posed = s->pose != NULL;
     if (k->posed) k->m = s->pose->m;
     k->asked = AS_LIST;
-    k->list = (list){p->v, p->count, step, p->reach};
+    k->list = (list){p->v, p->count, step, p->reach, NULL};
     k->reach = p->reach;
     k->limit = p->reach * (1 + 16 * UNIT); /* that of know_reach, of plain sizes */
     return 1;

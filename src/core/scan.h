@@ -11,6 +11,7 @@ typedef struct list {
     const real *v;
     size_t count, step;
     real reach;
+    const uint32_t *index; /* of them, or NULL (indexed.h) */
 } list;
 
 static inline vec nth_of(const list *l, size_t n) { return load(l->v + n * l->step); }
@@ -496,7 +497,7 @@ static APART size_t farthest_of_many_in_haste(const list *l, vec d) { return far
 
 /* Farthest of the points, the first among equals; of strangers their count if one is not finite. Of so few as a segment
  * or a triangle has almost equals are told apart in any case. */
-HOT size_t farthest_among(const list *l, vec d, enum care care)
+HOT size_t farthest_scanned(const list *l, vec d, enum care care)
 {
     if (l->count < MANY && l->count >= EIGHT) return farthest_of_some(l, d, care);
     if (l->count < MANY && l->count >= RUN) return farthest_in_few_runs(l, d, care);
@@ -505,8 +506,5 @@ HOT size_t farthest_among(const list *l, vec d, enum care care)
     if (care == FIRST_SIGHT) return farthest_of_many_at_sight(l, d);
     return care == WARY ? farthest_of_many(l, d) : farthest_of_many_numbers(l, d);
 }
-
-/* The same, where it is one call among many. */
-static APART size_t farthest_apart(const list *l, vec d, enum care care) { return farthest_among(l, d, care); }
 
 #endif

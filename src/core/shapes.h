@@ -5,9 +5,10 @@
 #define GJK_CORE_SHAPES_H
 
 #include "reach.h"
-#include "scan.h"
+#include "indexed.h"
 
 typedef pub(points) points;
+typedef pub(indexed_points) indexed_points;
 typedef pub(box) box;
 typedef pub(segment) segment;
 typedef pub(ball) ball;
@@ -91,7 +92,45 @@ GJK_API real pub(points_reach)(const points *p)
     return padded(root(sum) / level);
 }
 
-static inline list list_of_cloud(const points *p) { return (list){p->v, p->count, stride_of(p), p->reach}; }
+/* The index that the cloud has been given; NULL: none, or one of other points. */
+static inline const uint32_t *index_of_cloud(const points *p)
+{
+    if (p->indexed != 1) return NULL;
+    const uint32_t *index = ((const indexed_points *)(const void *)p)->index;
+    return index && index[OF_POINTS] == p->count ? index : NULL;
+}
+
+static inline list list_of_cloud(const points *p)
+{
+    return (list){p->v, p->count, stride_of(p), p->reach, index_of_cloud(p)};
+}
+
+GJK_API size_t pub(index_points)(indexed_points *p, void *memory, size_t bytes)
+{
+    if (!p || !cloud(&p->points) || p->points.count > UINT32_MAX / 2) return 0;
+    if ((uintptr_t)memory % sizeof(uint32_t) != 0) return 0;
+    if (!(pub(points_reach)(&p->points) <= p->points.reach && p->points.reach <= REAL_MAX / 8)) return 0;
+    list l = list_of_cloud(&p->points);
+    l.index = NULL;
+    const uint32_t side = cells_a_side(l.count), cells = cells_of_face(side) * FACES;
+    const size_t room = memory ? bytes / sizeof(uint32_t) : 0;
+    uint32_t *index = memory;
+    size_t at = BEGINS + cells + 1;
+    if (memory) p->points.indexed = 0;
+    for (uint32_t cell = 0; cell < cells; cell++) {
+        if (BEGINS + cell < room) index[BEGINS + cell] = (uint32_t)at;
+        at = write_cell(&l, cell, side, index, at, room);
+        if (at > UINT32_MAX) return 0;
+    }
+    if (at <= room) {
+        index[BEGINS + cells] = (uint32_t)at;
+        index[OF_POINTS] = (uint32_t)l.count;
+        index[PER_SIDE] = side;
+        p->index = index;
+        p->points.indexed = 1;
+    }
+    return at * sizeof(uint32_t);
+}
 
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
 {
@@ -127,7 +166,7 @@ static inline real reach_of(const real *v, size_t n)
     return reach;
 }
 
-static inline list list_of(const real (*v)[DIM], size_t n) { return (list){v[0], n, DIM, reach_of(v[0], n)}; }
+static inline list list_of(const real (*v)[DIM], size_t n) { return (list){v[0], n, DIM, reach_of(v[0], n), NULL}; }
 
 /* Among n corners. */
 static real farthest_of(const real (*v)[DIM], size_t n, const real dir[DIM], real out[DIM])

@@ -514,11 +514,11 @@ HOT int list_thin(body *k, const shape *s)
     if (s->support == pub(support_segment)) {
         const segment *e = s->data;
         if (!e) return 0;
-        k->list = (list){e->v[0], 2, DIM, 0};
+        k->list = (list){e->v[0], 2, DIM, 0, NULL};
         return 1;
     }
     if (s->support == pub(support_origin)) {
-        k->list = (list){nothing, 1, DIM, 0};
+        k->list = (list){nothing, 1, DIM, 0, NULL};
         return 1;
     }
     const box *e = s->data;

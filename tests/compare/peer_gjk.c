@@ -7,7 +7,7 @@ typedef struct body {
     V(shape) shape;
     V(pose) pose;
     union {
-        V(points) points;
+        V(indexed_points) cloud;
         V(box) box;
         V(segment) segment;
         V(ellipsoid) ellipsoid;
@@ -16,8 +16,12 @@ typedef struct body {
         V(cone) cone;
 #endif
     } core;
-    real *numbers; /* of its points, in its own precision */
+    real *numbers;   /* of its points, in its own precision, */
+    uint32_t *index; /*   and their index */
 } body;
+
+/* Clouds of so many points have an index, unless GJK_COMPARE_SCANS is set. */
+#define INDEXED 32
 
 static void copy(real *to, const double *from, int count)
 {
@@ -26,16 +30,32 @@ static void copy(real *to, const double *from, int count)
     }
 }
 
+/* Mostly 40 bytes a point are enough. */
+static void give_index(body *b)
+{
+    size_t bytes = b->core.cloud.points.count * 40, more;
+    b->index = malloc(bytes);
+    more = V(index_points)(&b->core.cloud, b->index, bytes);
+    if (more > bytes) {
+        free(b->index);
+        b->index = malloc(more);
+        V(index_points)(&b->core.cloud, b->index, more);
+    }
+}
+
 static void set_points(body *b, const peer_set *set)
 {
-    V(points) points = {NULL, (size_t)set->count, 0, 0, 0};
+    V(indexed_points) *cloud = &b->core.cloud;
+    cloud->points = (V(points)){NULL, (size_t)set->count, 0, 0, 0};
     b->numbers = malloc((size_t)set->count * DIM * sizeof *b->numbers);
     if (b->numbers) {
         copy(b->numbers, set->v, set->count * DIM);
-        points.v = b->numbers;
-        points.reach = V(points_reach)(&points);
+        cloud->points.v = b->numbers;
+        cloud->points.reach = V(points_reach)(&cloud->points);
     }
-    b->core.points = points;
+    if (b->numbers && set->count >= INDEXED && !getenv("GJK_COMPARE_SCANS")) {
+        give_index(b);
+    }
     b->shape.support = V(support_points);
 }
 
@@ -110,6 +130,7 @@ static void *again(const void *made, const peer_set *set)
 static void discard(void *made)
 {
     free(((body *)made)->numbers);
+    free(((body *)made)->index);
     free(made);
 }
 

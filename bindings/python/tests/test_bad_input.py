@@ -37,6 +37,8 @@ BAD = [
     (gjk.BadSupport, r"radii\[1\] is nan", lambda: gjk.Ellipsoid((1, NAN, 1))),
     (gjk.BadSupport, r"no points", lambda: gjk.Points([], dim=3)),
     (gjk.BadSupport, r"points\[1\]\[0\] is nan", lambda: gjk.Points([(0, 0, 0), (NAN, 0, 0)])),
+    (gjk.BadSupport, r"points\[1\]\[0\] is nan", lambda: gjk.Points([(0, 0, 0), (NAN, 0, 0)], indexed=True)),
+    (gjk.BadSupport, r"no points", lambda: gjk.Points([], dim=3, indexed=True)),
     (gjk.BadSupport, r"points\[0\]\[2\] is -inf", lambda: gjk.Points([(0, 0, -INF), (0, 0, 0)])),
     (gjk.BadSupport, r"v\[1\]\[1\] is nan", lambda: gjk.Segment([(0, 0, 0), (1, NAN, 1)])),
     (gjk.BadSupport, r"v\[2\]\[0\] is inf", lambda: gjk.Triangle([(0, 0, 0), (1, 1, 1), (INF, 0, 0)])),

@@ -21,6 +21,7 @@ SHIFT = (1.0, 0.0, 0.0, 5.0, 0.0, 1.0, 0.0, 6.0, 0.0, 0.0, 1.0, 7.0)
 ONE_OF_EACH = [
     gjk.Points([(0, 0, 0), (1, 0, 0), (0, 1, 0)], radius=0.5),
     gjk.Points([], dim=2),
+    gjk.Points([(0, 0), (1, 0), (0, 1)], indexed=True),
     gjk.Box((1, 2, 3), pose=SHIFT),
     gjk.Box((1, 2)),
     gjk.Segment([(0, 0), (1, 1)]),
@@ -117,6 +118,24 @@ def test_arrays_of_any_layout():
     assert {gjk.Points(form) for form in forms} == {gjk.Points(cloud)}
     assert gjk.Points(np.array([[1, 2], [3, 4]])) == gjk.Points([(1, 2), (3, 4)])
     assert gjk.Box(np.array([1, 2, 3])) == gjk.Box((1, 2, 3))
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("dim", [2, 3])
+def test_an_index_changes_no_answer(dim, precision):
+    rng = np.random.default_rng(dim)
+    cloud = rng.normal(size=(300, dim))
+    cloud /= np.linalg.norm(cloud, axis=1, keepdims=True)
+    plain, indexed = gjk.Points(cloud), gjk.Points(cloud, indexed=True)
+    assert indexed.at([1] * dim).indexed
+    assert indexed == plain
+    for shift in rng.normal(size=(20, dim)):
+        other = gjk.Box([0.5] * dim, pose=list(2 * shift))
+        for ask in (gjk.distance, gjk.penetration):
+            one, two = ask(plain, other, precision=precision), ask(indexed, other, precision=precision)
+            assert one.status == two.status
+            assert one.value == pytest.approx(two.value, rel=1e-5)
+            assert max(one.lower, two.lower) <= min(one.upper, two.upper)
 
 
 def test_what_is_given_is_copied():

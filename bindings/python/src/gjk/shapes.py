@@ -163,17 +163,24 @@ def _ready(v: Variant, support: str, struct: str, fields: dict[str, Any], *keep:
 
 
 class Points(Shape):
-    """The convex hull of points, each of dim coordinates. dim is needed only where there are none."""
+    """The convex hull of points, each of dim coordinates. dim is needed only where there are none.
 
-    __slots__ = ("points",)
+    indexed: once, at the first query, which of the points may be farthest in which direction is noted, and only these
+    are looked at from then on. That pays from about 100 points on; answers are as exact.
+    """
+
+    __slots__ = ("indexed", "points")
     _sizes = ("points",)
+    _more = ("indexed",)
     points: tuple[tuple[float, ...], ...]
+    indexed: bool
 
     def __init__(
         self,
         points: Iterable[Numbers],
         *,
         dim: int | None = None,
+        indexed: bool = False,
         pose: PoseLike | None = None,
         radius: float = 0.0,
     ) -> None:
@@ -184,18 +191,29 @@ class Points(Shape):
             dim = len(table[0])
         elif table and len(table[0]) != dim:
             raise BadArgument(f"Points: {len(table[0])} coordinates in {dim}-D")
-        super().__init__(dim, pose, radius, points=table)
+        super().__init__(dim, pose, radius, points=table, indexed=bool(indexed))
 
     def _keywords(self) -> dict[str, Any]:
         words = super()._keywords()
+        if self.indexed:
+            words["indexed"] = True
         return words if self.points else {"dim": self.dim, **words}
 
     def _set(self, v: Variant) -> Native:
         flat = v.reals([c for point in self.points for c in point] or [0.0])
-        data = v.new("points", {"v": flat, "count": len(self.points)})
-        reach = v.function("points_reach")(data)
-        data.reach = reach if reach >= 0 else 0.0  # NaN: the query is to say what is wrong
-        return Native(v.ready("support_points"), data, (data, flat), False)
+        data = v.new("indexed_points", {"points": {"v": flat, "count": len(self.points)}})
+        reach = v.function("points_reach")(ffi.addressof(data.points))
+        data.points.reach = reach if reach >= 0 else 0.0  # NaN: the query is to say what is wrong
+        index = self._index(v, data) if self.indexed else None
+        return Native(v.ready("support_points"), data, (data, flat, index), False)
+
+    @staticmethod
+    def _index(v: Variant, data: Any) -> Any:
+        """The memory of an index that is given to the data; none of points that have none."""
+        size = v.function("index_points")(data, ffi.NULL, 0)
+        memory = ffi.new("uint32_t[]", size // ffi.sizeof("uint32_t"))
+        v.function("index_points")(data, memory, size)
+        return memory
 
     def _set_fault(self) -> str:
         if not self.points:
