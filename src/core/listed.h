@@ -223,8 +223,9 @@ static inline int is_corner(const body *k, vec x)
     if (look_up(l, x, &s))
         for (; s.from < s.end; s.from++)
             if (same(nth_of(l, *s.from), x)) return 1;
+    if (l->count >= EIGHT) return is_in_eights(l, x);
     for (size_t i = 0; i < l->count; i++)
-        if (l->v[i * l->step] == x.c[0] && same(load(l->v + i * l->step), x)) return 1;
+        if (same(nth_of(l, i), x)) return 1;
     return 0;
 }
 

@@ -279,6 +279,25 @@ HOT int are_finite(lanes sum) { return holds_in_all(no_larger(products(sum, in_a
 
 static inline size_t later_eight(size_t i, size_t last) { return i < last ? i : last; }
 
+/* x is one of eight points or more: of each eight it is asked first whether any has its first coordinate. */
+static APART int is_in_eights(const list *l, vec x)
+{
+    const lanes first = in_all(x.c[0]);
+    for (size_t i = 0; i < l->count; i += EIGHT) {
+        const real *from = l->v + later_eight(i, l->count - EIGHT) * l->step;
+        lanes any = in_all(0);
+        for (size_t k = 0; k < EIGHT; k += LANES) {
+            lanes c[DIM];
+            load_lanes(from + k * l->step, l->step, c);
+            any = in_either(any, equals(c[0], first));
+        }
+        if (!holds_in_any(any)) continue;
+        for (size_t k = 0; k < EIGHT; k++)
+            if (same(load(from + k * l->step), x)) return 1;
+    }
+    return 0;
+}
+
 /* Bit i: point i of n is no lower than that. */
 HOT unsigned eights_as_large(const eight *e, size_t n, lanes least)
 {

@@ -46,7 +46,8 @@ static void expect_packed(const char *name, size_t size)
                F(workspace_bytes))                                                                                     \
     PACKED(gjk, result,                                                                                                \
            F(value) F(lower) F(upper) F(point_a) F(point_b) F(normal) F(status) F(steps) F(supports) F(reserved))      \
-    STRUCT(gjk, points, F(v) F(count) F(stride) F(reserved) F(reach))                                                  \
+    STRUCT(gjk, points, F(v) F(count) F(stride) F(indexed) F(reach))                                                   \
+    STRUCT(gjk, indexed_points, F(points) F(index))                                                                    \
     PACKED(gjk, box, F(half))                                                                                          \
     PACKED(gjk, segment, F(v))                                                                                         \
     PACKED(gjk, ball, F(radius))                                                                                       \
