@@ -363,27 +363,28 @@ static void after_a_leap(void **state)
     }
 }
 
-static real corner[4][DIM];
+#define MOST_CORNERS 12
+static real corner[MOST_CORNERS][DIM];
 
 static void edit_corners(void)
 {
-    for (int n = 0; n < 4; n++) {
+    for (int n = 0; n < MOST_CORNERS; n++) {
         corner[n][1] /= 2;
     }
 }
 
-/* Points, so that the first coordinate of each stays. */
+/* Points, so that the first coordinate of each stays. Of twelve eight lie amid the others. */
 static void of_points_edited(void **state)
 {
     (void)state;
     for (uint64_t i = 0; i < 40000; i++) {
         draws d = draws_from(6, 10, i / 2);
-        V(points) points = {corner[0], 4, 0, 0, 4};
+        V(points) points = {corner[0], i / 2 % 2 ? 4 : MOST_CORNERS, 0, 0, 4};
         start_body(&p.a, BOX);
         start_body(&p.b, BOX);
-        for (int n = 0; n < 4; n++) {
+        for (int n = 0; n < MOST_CORNERS; n++) {
             for (int k = 0; k < DIM; k++) {
-                corner[n][k] = (real)(k < 2 ? (n >> k & 1 ? -2 : 2) : 0);
+                corner[n][k] = (real)(k < 2 ? (n >> k & 1 ? -2 : 2) : 0) / (real)(1 + n / 4);
             }
         }
         for (int k = 0; k < DIM; k++) {
