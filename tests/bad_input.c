@@ -361,7 +361,12 @@ static void indexes(void **state)
     assert_int_equal(V(index_points)(&c, room, bytes), bytes);
     assert_true(c.points.indexed == 1 && c.index == room);
 
-    const real dir[DIM] = {(real)0.5, 1};
+    const real dir[DIM] = {(real)0.5, 1}, was = v[7][0];
+    v[7][0] = 4; /* beyond the reach: that is refused, and the old index is none of these points */
+    assert_int_equal(V(index_points)(&c, room, bytes), 0);
+    assert_int_equal(c.points.indexed, 0);
+    v[7][0] = was;
+    assert_int_equal(V(index_points)(&c, room, bytes), bytes);
     for (size_t count = 40; count > 30; count--) {
         c.points.count = count;
         V(points) scanned = points;

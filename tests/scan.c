@@ -281,11 +281,63 @@ static void by_an_index(void **state)
     assert_true(looked_at < of / 10);
 }
 
+/* So large at most, as the header says. */
+static size_t most_bytes(size_t count) { return 80 * count + 100; }
+
+static void check_same(const list *with, const list *l, vec d)
+{
+    if (!(peak(d) > 0)) return;
+    assert_true(farthest_among(with, d, CAREFUL) == farthest_scanned(l, d, CAREFUL));
+    if (l->count < RUN) return; /* of which almost equals are told apart in any case */
+    assert_true(farthest_among(with, d, HASTY) == farthest_scanned(l, d, HASTY));
+    assert_true(farthest_among(with, d, FIRST_SIGHT) == farthest_scanned(l, d, FIRST_SIGHT));
+}
+
+/* Four bunches, in each of which all may be the farthest; four points, many times; and one. */
+static void of_any_size(void **state)
+{
+    (void)state;
+    for (int n = 1; n < LONGEST; n += 1 + n / 3) {
+        for (int kind = 0; kind < 3; kind++) {
+            const list l = {v, (size_t)n, DIM, 4, NULL};
+            size_t bytes;
+            for (int i = 0; i < n * DIM; i++)
+                v[i] = (i / DIM >> i % DIM % 2 & 1 && kind < 2 ? 1 : -1) + (kind == 0 ? any_real() * 64 * UNIT : 0);
+            const list with = indexed_list(l, &bytes);
+            assert_true(bytes <= most_bytes(l.count));
+            for (int k = 0; k < 20; k++) check_same(&with, &l, any_direction(0));
+        }
+    }
+}
+
+static real any_power(void)
+{
+    const int most = REAL_IS_DOUBLE ? 1000 : 120;
+    return (real)ldexp(1, below_any(2 * most + 1) - most);
+}
+
+/* Points, and directions, from one end of the numbers to the other: heights under- and overflow. */
+static void of_any_length(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8000; i++) {
+        list l = any_list(i % 3);
+        size_t bytes;
+        const real to =
+            i % 4 ? smaller(any_power(), REAL_MAX / 16 / l.reach) : REAL_MIN * UNIT * (real)(1 + below_any(64));
+        for (size_t k = 0; k < l.count * l.step; k++) v[k] *= to;
+        l.reach = larger(l.reach * to, TINY);
+        const list with = indexed_list(l, &bytes);
+        for (int k = 0; k < 20; k++) check_same(&with, &l, mul(any_direction(0), k % 2 ? any_power() : 1));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whichever_way), cmocka_unit_test(wherever_they_are), cmocka_unit_test(no_numbers),
-        cmocka_unit_test(no_sum),        cmocka_unit_test(by_an_index),
+        cmocka_unit_test(no_sum),        cmocka_unit_test(by_an_index),       cmocka_unit_test(of_any_size),
+        cmocka_unit_test(of_any_length),
     };
     return cmocka_run_group_tests_name("scans", tests, NULL, NULL);
 }

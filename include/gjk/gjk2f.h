@@ -148,16 +148,18 @@ GJK_API float gjk2f_support_points(const void *points, const float dir[2], float
 GJK_API float gjk2f_points_reach(const gjk2f_points *points);
 
 /* A cloud of many points with an index: which of them may be the farthest, by direction. A support looks at these
- * alone, and finds the same point, to the bit; from about 100 points on that pays. */
+ * alone, and finds the same point, to the bit; from about 100 points on that pays. The index holds as long as the
+ * points stay as they are and as many; of other points it proves nothing. */
 typedef struct gjk2f_indexed_points {
-    gjk2f_points points;    /* data of a shape is their address, or this one's: they are the same */
+    gjk2f_points points;    /* data of a shape is their address, or this one's: they are the same. A copy of the points
+                            * alone has no index: indexed is to be 0 there */
     const uint32_t *index; /* the caller's memory, which must outlive its use */
 } gjk2f_indexed_points;
-/* Makes the index of cloud->points, whose reach is set, in memory of so many bytes, aligned for a uint32_t, and gives
- * it to the cloud if it fits there; if not, the cloud has none. Returns how many bytes it takes: ask with NULL and 0
- * first. Of points on a ball they are about 20 a point. 0: the points are bad, too many (2^31) or too large (the
- * largest number / 8), their reach is not known or too small, or the memory is not aligned. The index holds as long as
- * the points stay as they are. */
+/* Makes the index of cloud->points, whose reach is that of gjk2f_points_reach or larger, in memory of so many bytes,
+ * aligned for a uint32_t, and gives it to the cloud if it fits there; if not, the cloud has none. Returns how many
+ * bytes it takes: ask with NULL and 0 first. Of points on a ball they are 4 to 9 a point, of others 80 at most, and
+ * 100 besides. 0: the points are bad, more than 2^25, or farther out than the largest number / 8; their reach is not
+ * known, or less than that; or the memory is not aligned. */
 GJK_API size_t gjk2f_index_points(gjk2f_indexed_points *cloud, void *memory, size_t bytes);
 
 /* |x| <= half[0], |y| <= half[1] */

@@ -53,11 +53,11 @@ typedef struct candidates {
     const uint32_t *from, *end;
 } candidates;
 
-/* 0: all may be, or there is no index. */
+/* 0: all may be, or there is no index; or heights that large may under- or overflow. */
 HOT int look_up(const list *l, vec d, candidates *s)
 {
-    const real far = peak(d);
-    if (!l->index || !(far > 0 && spread(d) <= REAL_MAX)) return 0;
+    const real far = peak(d), high = l->reach * far;
+    if (!l->index || !(high > REAL_MIN / UNIT && high < REAL_MAX / 8 && spread(d) <= REAL_MAX)) return 0;
     const uint32_t *begin = l->index + BEGINS + cell_of(d, far, l->index[PER_SIDE]);
     *s = (candidates){l->index + begin[0], l->index + begin[1]};
     return begin[0] < begin[1];
@@ -81,7 +81,9 @@ static APART size_t farthest_apart(const list *l, vec d, enum care care) { retur
 
 /* ---- making one ---- */
 
-/* So many cells a side for so many points: about as many cells as half of them, and no more than MOST_PER_SIDE. */
+/* So many cells a side for so many points: about as many cells as half of them, and no more than MOST_PER_SIDE; half as
+ * many, and so on, where an index would be larger than so many numbers a point. */
+#define MOST_A_POINT 16
 #define MOST_PER_SIDE 16
 static inline uint32_t cells_a_side(size_t count)
 {
@@ -148,7 +150,8 @@ static int is_outdone(const rivals *r, const sector *s, vec x, real margin)
     return 0;
 }
 
-/* The points of a cell, to there if they fit before end; where the next one's begin. */
+/* The points of a cell, to there if they fit before end; where the next one's begin. None where they are a third of
+ * all: to look at all is as fast then. */
 static size_t write_cell(const list *l, uint32_t cell, uint32_t side, uint32_t *index, size_t at, size_t end)
 {
     const sector s = sector_of(cell, side);
@@ -160,7 +163,36 @@ static size_t write_cell(const list *l, uint32_t cell, uint32_t side, uint32_t *
         if (at < end) index[at] = (uint32_t)i;
         at++;
     }
-    return 2 * (at - begin) < l->count ? at : begin;
+    return 3 * (at - begin) < l->count ? at : begin;
+}
+
+static inline size_t begin_of_points(uint32_t side) { return BEGINS + FACES * cells_of_face(side) + 1; }
+
+/* An index of so many cells a side, as far as it fits before end. How large it is, or that it is larger than most. */
+static size_t write_index(const list *l, uint32_t side, uint32_t *index, size_t end, size_t most)
+{
+    const size_t begins = BEGINS + FACES * cells_of_face(side);
+    size_t at = begin_of_points(side);
+    for (size_t k = BEGINS; k < begins && at <= most; k++) {
+        if (k < end) index[k] = (uint32_t)at;
+        at = write_cell(l, (uint32_t)(k - BEGINS), side, index, at, end);
+    }
+    if (at > end) return at;
+    index[begins] = (uint32_t)at;
+    index[OF_POINTS] = (uint32_t)l->count;
+    index[PER_SIDE] = side;
+    return at;
+}
+
+/* The same of as many cells as make it no larger than it may be: of one a side it is not. */
+static size_t make_index(const list *l, uint32_t *index, size_t end)
+{
+    uint32_t side = cells_a_side(l->count);
+    for (;; side /= 2) {
+        const size_t most = begin_of_points(side) + MOST_A_POINT * l->count,
+                     size = write_index(l, side, index, end, most);
+        if (size <= most || side == 1) return size;
+    }
 }
 
 #endif

@@ -105,31 +105,21 @@ static inline list list_of_cloud(const points *p)
     return (list){p->v, p->count, stride_of(p), p->reach, index_of_cloud(p)};
 }
 
+#define MOST_INDEXED (UINT32_MAX / 128) /* so that sizes are numbers of 32 bits */
+
 GJK_API size_t pub(index_points)(indexed_points *p, void *memory, size_t bytes)
 {
-    if (!p || !cloud(&p->points) || p->points.count > UINT32_MAX / 2) return 0;
+    if (p && memory) p->points.indexed = 0;
+    if (!p || !cloud(&p->points) || p->points.count > MOST_INDEXED) return 0;
     if ((uintptr_t)memory % sizeof(uint32_t) != 0) return 0;
     if (!(pub(points_reach)(&p->points) <= p->points.reach && p->points.reach <= REAL_MAX / 8)) return 0;
-    list l = list_of_cloud(&p->points);
-    l.index = NULL;
-    const uint32_t side = cells_a_side(l.count), cells = cells_of_face(side) * FACES;
-    const size_t room = memory ? bytes / sizeof(uint32_t) : 0;
-    uint32_t *index = memory;
-    size_t at = BEGINS + cells + 1;
-    if (memory) p->points.indexed = 0;
-    for (uint32_t cell = 0; cell < cells; cell++) {
-        if (BEGINS + cell < room) index[BEGINS + cell] = (uint32_t)at;
-        at = write_cell(&l, cell, side, index, at, room);
-        if (at > UINT32_MAX) return 0;
-    }
-    if (at <= room) {
-        index[BEGINS + cells] = (uint32_t)at;
-        index[OF_POINTS] = (uint32_t)l.count;
-        index[PER_SIDE] = side;
-        p->index = index;
+    const list l = {p->points.v, p->points.count, stride_of(&p->points), p->points.reach, NULL};
+    const size_t end = memory ? bytes / sizeof(uint32_t) : 0, size = make_index(&l, memory, end);
+    if (size <= end) {
+        p->index = memory;
         p->points.indexed = 1;
     }
-    return at * sizeof(uint32_t);
+    return size * sizeof(uint32_t);
 }
 
 GJK_API real pub(support_points)(const void *data, const real dir[DIM], real out[DIM])
