@@ -284,13 +284,16 @@ static void by_an_index(void **state)
 /* So large at most, as the header says. */
 static size_t most_bytes(size_t count) { return 80 * count + 100; }
 
+/* Heights that overflow are of strangers alone, who are refused then. */
 static void check_same(const list *with, const list *l, vec d)
 {
+    const int stays_finite = l->reach * peak(d) < REAL_MAX / 4;
     if (!(peak(d) > 0)) return;
-    assert_true(farthest_among(with, d, CAREFUL) == farthest_scanned(l, d, CAREFUL));
+    assert_true(farthest_among(with, d, WARY) == farthest_scanned(l, d, WARY));
+    if (stays_finite) assert_true(farthest_among(with, d, CAREFUL) == farthest_scanned(l, d, CAREFUL));
     if (l->count < RUN) return; /* of which almost equals are told apart in any case */
-    assert_true(farthest_among(with, d, HASTY) == farthest_scanned(l, d, HASTY));
     assert_true(farthest_among(with, d, FIRST_SIGHT) == farthest_scanned(l, d, FIRST_SIGHT));
+    if (stays_finite) assert_true(farthest_among(with, d, HASTY) == farthest_scanned(l, d, HASTY));
 }
 
 /* Four bunches, in each of which all may be the farthest; four points, many times; and one. */
@@ -328,7 +331,10 @@ static void of_any_length(void **state)
         for (size_t k = 0; k < l.count * l.step; k++) v[k] *= to;
         l.reach = larger(l.reach * to, TINY);
         const list with = indexed_list(l, &bytes);
-        for (int k = 0; k < 20; k++) check_same(&with, &l, mul(any_direction(0), k % 2 ? any_power() : 1));
+        for (int k = 0; k < 20; k++) {
+            const real far = k % 2 ? any_power() : 1;
+            check_same(&with, &l, mul(any_direction(0), far));
+        }
     }
 }
 
