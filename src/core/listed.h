@@ -197,7 +197,8 @@ static inline int is_thin(const body *k) { return k->asked != AS_BOX && k->list.
 #define LONG 512
 static inline int is_long(const body *k) { return k->asked == AS_LIST && k->list.count >= LONG && !k->list.index; }
 
-/* One corner in so many, a power of 4: so few, or up to four times as many. 1: of a list as short as that all. */
+/* One corner in so many, a power of 4: so few, or up to four times as many. 1: all, of a list as short as that or with
+ * an index. */
 static size_t share_of(const body *k, size_t few)
 {
     size_t n = 1;
