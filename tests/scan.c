@@ -338,12 +338,96 @@ static void of_any_length(void **state)
     }
 }
 
+/* A body of these points, its map drawn: a turn, a shear, or rows that are the same but for some roundings, so that of
+ * a way across them hardly anything is left in the body's own coordinates. */
+static body any_body(const list *l, real m[DIM * DIM], int kind)
+{
+    body k = {0};
+    real sum = 0;
+    for (int i = 0; i < DIM * DIM; i++) {
+        m[i] = kind == 0 ? (real)(i % (DIM + 1) == 0) : any_real() * 2;
+        if (kind == 2 && i >= DIM) m[i] = m[i % DIM] * (1 + (real)(below_any(9) - 4) * 4 * UNIT);
+        sum += m[i] * m[i];
+    }
+    k.posed = below_any(8) > 0;
+    k.m = m;
+    k.norm = k.posed ? root(sum) * (1 + 8 * UNIT) : 1;
+    k.asked = AS_LIST;
+    k.list = *l;
+    k.reach = l->reach;
+    k.grain = (real)ldexp(1, below_any(9) - 4);
+    k.size = 1;
+    return k;
+}
+
+/* A way, and a simplex of that body alone, whose corners are about as low along it as any. */
+static void any_sight(sight *e, simplex *s, real rise[DIM + 1], const body *k, int kind)
+{
+    vec way;
+    do way = kind == 2 ? add(axis(0, 1), axis(1, -1)) : any_direction(0);
+    while (!(peak(way) > 0));
+    const vec aside = any_direction(0), low = any_direction(0);
+    way = mul(add(way, mul(aside, kind == 2 ? 8 * UNIT : 0)), any_real() + 2);
+    e->way = (vec_twin){way, mul(low, UNIT * peak(way))};
+    const vec down = mul(k->posed ? pull(k->m, way) : way, -1);
+    size_t at[DIM];
+    s->n = 1;
+    at[0] = below_any(4) ? farthest_scanned(&k->list, down, HASTY) : (size_t)below_any((int)k->list.count);
+    while (s->n < DIM && below_any(2)) at[s->n++] = (size_t)below_any((int)k->list.count);
+    for (int i = 0; i < s->n; i++) {
+        s->at[i] = i;
+        s->slot[i].x = nth_of(&k->list, at[i]);
+        const vec_twin edge = edge_between(k, s->slot[0].x, s->slot[i].x);
+        rise[i] = rise_along(&e->way, &edge);
+    }
+}
+
+/* The last look of a distance, to twice the digits: by an index the same corner is the lowest, as low to the last bit,
+ * as it is of all. */
+static void lowest_by_an_index(void **state)
+{
+    long lower = 0, hidden = 0;
+    (void)state;
+    for (int i = 0; i < 2000; i++) {
+        const int of = i % 4, kind = i / 4 % 3;
+        list l = any_list(of % 3);
+        size_t bytes;
+        if (of == 3) draw_on_ball(&l);
+        const list with = indexed_list(l, &bytes);
+        real m[DIM * DIM], rise[DIM + 1] = {0};
+        body k = any_body(&l, m, kind);
+        for (int round = 0; round < 20; round++) {
+            sight e;
+            simplex s;
+            vec lowest, same_one;
+            candidates those;
+            any_sight(&e, &s, rise, &k, kind);
+            k.list = l;
+            const real fall = fall_of(&e, &k, &s, offsetof(vertex, x), rise, 1, &lowest);
+            descent all = {0, s.slot[0].x};
+            for (size_t n = 0; n < l.count; n++)
+                look_for_fall(&all, &e, &k, &s, offsetof(vertex, x), rise, 1, nth_of(&l, n));
+            assert_true(fall == all.least && same(lowest, all.x));
+            k.list = with;
+            assert_true(fall == fall_of(&e, &k, &s, offsetof(vertex, x), rise, 1, &same_one));
+            assert_true(same(lowest, same_one));
+            if (!look_up(&with, mul(k.posed ? pull(m, e.way.high) : e.way.high, -1), &those)) continue;
+            int named = 0;
+            for (; those.from < those.end; those.from++) named |= same(nth_of(&l, *those.from), lowest);
+            lower += fall < 0;
+            hidden += fall < 0 && !named;
+        }
+    }
+    assert_true(lower > 1000);
+    assert_true(hidden > 10); /* the index alone would not do */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whichever_way), cmocka_unit_test(wherever_they_are), cmocka_unit_test(no_numbers),
-        cmocka_unit_test(no_sum),        cmocka_unit_test(by_an_index),       cmocka_unit_test(of_any_size),
-        cmocka_unit_test(of_any_length),
+        cmocka_unit_test(whichever_way), cmocka_unit_test(wherever_they_are),  cmocka_unit_test(no_numbers),
+        cmocka_unit_test(no_sum),        cmocka_unit_test(by_an_index),        cmocka_unit_test(of_any_size),
+        cmocka_unit_test(of_any_length), cmocka_unit_test(lowest_by_an_index),
     };
     return cmocka_run_group_tests_name("scans", tests, NULL, NULL);
 }
