@@ -374,6 +374,13 @@ static void indexes(void **state)
         assert_true(V(support_points)(&c, dir, out[0]) == V(support_points)(&scanned, dir, out[1]));
         assert_memory_equal(out[0], out[1], sizeof out[0]);
     }
+    c.points.count = 40;
+    v[7][0] = 4;
+    c.points.reach = 8; /* nor is it of points of another reach */
+    const real along[DIM] = {1};
+    assert_true(V(support_points)(&c, along, out[0]) == 8);
+    assert_memory_equal(out[0], v[7], sizeof out[0]);
+    v[7][0] = was;
     c.points = points;
     c.points.indexed = 1;
     c.index = NULL; /* that is none */

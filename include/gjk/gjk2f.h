@@ -148,8 +148,9 @@ GJK_API float gjk2f_support_points(const void *points, const float dir[2], float
 GJK_API float gjk2f_points_reach(const gjk2f_points *points);
 
 /* A cloud of many points with an index: which of them may be the farthest, by direction. A support looks at these
- * alone, and finds the same point, to the bit; from about 100 points on that pays. The index holds as long as the
- * points, how many they are and their reach stay as they are; of others it proves nothing: make it anew. */
+ * alone, and finds the same point, to the bit; from about 100 points on that pays. The index is of the points as they
+ * are: of others it proves nothing, make it anew. Where there are fewer or more of them, or their reach is another, it
+ * is left alone, and all are looked at. */
 typedef struct gjk2f_indexed_points {
     gjk2f_points points;    /* data of a shape is their address, or this one's: they are the same. A copy of the points
                             * alone has no index: indexed is to be 0 there */

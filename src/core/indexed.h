@@ -10,9 +10,10 @@
 /* ---- cells ---- */
 
 /* Directions by the face of the cube that they go through, and where they go through that: a square of PER_SIDE cells a
- * side, in the plane a row of them. An index is so many numbers: how many points, how many cells a side, where the
- * points of each cell begin and where the last one's end, and the points. A cell without any stands for all points. */
-enum { OF_POINTS, PER_SIDE, BEGINS };
+ * side, in the plane a row of them. An index is so many numbers: how many points, how many cells a side, the points'
+ * reach as it was, where the points of each cell begin and where the last one's end, and the points. A cell without any
+ * stands for all points. */
+enum { OF_POINTS, PER_SIDE, OF_REACH, BEGINS = OF_REACH + sizeof(real) / sizeof(uint32_t) };
 
 #define FACES (2 * DIM)
 
@@ -31,6 +32,12 @@ HOT uint32_t cell_of(vec d, real far, uint32_t side)
         cell = cell * side + (at < side ? at : side - 1);
     }
     return cell;
+}
+
+/* It is of so many points, of that reach. */
+HOT int is_index_of(const uint32_t *index, size_t count, real reach)
+{
+    return index[OF_POINTS] == count && memcmp(index + OF_REACH, &reach, sizeof reach) == 0;
 }
 
 /* ---- asking ---- */
@@ -181,6 +188,7 @@ static size_t write_index(const list *l, uint32_t side, uint32_t *index, size_t 
     index[begins] = (uint32_t)at;
     index[OF_POINTS] = (uint32_t)l->count;
     index[PER_SIDE] = side;
+    memcpy(index + OF_REACH, &l->reach, sizeof l->reach);
     return at;
 }
 

@@ -92,12 +92,13 @@ GJK_API real pub(points_reach)(const points *p)
     return padded(root(sum) / level);
 }
 
-/* The index that the cloud has been given; NULL: none, or one of other points. */
+/* The index that the cloud has been given; NULL: none, or one of other points, or of another
+ * reach. */
 static inline const uint32_t *index_of_cloud(const points *p)
 {
     if (p->indexed != 1) return NULL;
     const uint32_t *index = ((const indexed_points *)(const void *)p)->index;
-    return index && index[OF_POINTS] == p->count ? index : NULL;
+    return index && is_index_of(index, p->count, p->reach) ? index : NULL;
 }
 
 static inline list list_of_cloud(const points *p)
