@@ -23,7 +23,7 @@ static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x3752
 static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0xe81497eea7ee0102};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xe18daf502c62f87b, 0x4e4dcc667154d06c, 0x58986be4920c3156};
+static const uint64_t known[3] = {0x00dc116d58b4730f, 0x1417d009d4a9b2a1, 0xc9dec43a637396d5};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

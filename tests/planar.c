@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Polygons of few corners in the plane, against the exact truth: of one to nine corners, in clusters whose edges are a
  * few roundings long, on lines, twice the same, sheared; apart, all but touching and overlapping, with radii; on a
- * grid, touching, or but for one number's last digit. What tells most of them shows in how few steps they take; and no
- * query takes more of these for being allowed more. */
+ * grid, touching, or but for one number's last digit; and deep in each other. What tells most of them shows in how few
+ * steps they take; and no distance takes more of these for being allowed more. */
 #include "faults.h"
 #include "pairs.h"
 #include "settle.h"
@@ -10,11 +10,12 @@
 #define VALUE_ERROR 4.0      /* in u * scale */
 #define DISTANCE_WIDTH 100.0 /* in u * span */
 #define STEPS_MOST 24
+#define DEPTH_STEPS_MOST 40
 #define PAIRS 1500 /* of each sort */
 
-enum sort { CIRCLING, CLUSTERS, ON_LINES, SHEARED, NEARLY_TOUCHING, ON_A_GRID, SORTS };
-static const char *const sort_name[SORTS] = {"circling", "clusters",        "on lines",
-                                             "sheared",  "nearly touching", "on a grid"};
+enum sort { CIRCLING, CLUSTERS, ON_LINES, SHEARED, NEARLY_TOUCHING, ON_A_GRID, DEEP, DEEP_ON_A_GRID, SORTS };
+static const char *const sort_name[SORTS] = {"circling",        "clusters",  "on lines", "sheared",
+                                             "nearly touching", "on a grid", "deep",     "deep on a grid"};
 
 static exact best;
 static truth nearly;
@@ -63,7 +64,7 @@ static void draw_polygons(draws *d)
     draw_corners(d, &p.a);
     draw_corners(d, &p.b);
     for (int i = 0; i < DIM; i++) {
-        p.b.pose.p[i] = (real)between(d, -3, 3);
+        p.b.pose.p[i] = (real)(between(d, -3, 3) / (sort == DEEP ? 6 : 1));
     }
     bind_pair(&p);
     if (below(d, 3) == 0) {
@@ -117,7 +118,8 @@ static real *any_number(draws *d, body *b)
     }
 }
 
-/* Across a line along an axis, with a corner of each in the same place: all of numbers of few digits, but for one. */
+/* Across a line along an axis, with a corner of each in the same place, or anywhere: all of numbers of few digits, but
+ * for one. */
 static void draw_grid_pair(draws *d)
 {
     const double size = 1.0 / (1 << below(d, 6));
@@ -131,7 +133,10 @@ static void draw_grid_pair(draws *d)
     for (int k = 0; k < p.b.count; k++) {
         n = placed_on_grid(&p.b, k, across) < placed_on_grid(&p.b, n, across) ? k : n;
     }
-    for (int i = 0; i < DIM; i++) {
+    for (int i = 0; i < DIM && sort == DEEP_ON_A_GRID; i++) {
+        p.b.pose.p[i] = (real)(size * (below(d, 9) - 4));
+    }
+    for (int i = 0; i < DIM && sort == ON_A_GRID; i++) {
         p.a.pose.p[i] = (real)(size * (below(d, 9) - 4));
         p.b.pose.p[i] = (real)((double)p.a.pose.p[i] + placed_on_grid(&p.a, m, i) - placed_on_grid(&p.b, n, i));
     }
@@ -163,6 +168,26 @@ static void check(const V(result) * r, int signed_too)
          (double)((quad)r->upper - (quad)r->lower) / U / span_of_pair(&p.a, &p.b));
 }
 
+/* How deep: the value is as near on both sides, and the points, moved along the normal by it, are one. */
+static void check_depth(const V(result) * r)
+{
+    const double u_scale = U * scale();
+    double off = 0, square = -1;
+    for (int i = 0; i < DIM; i++) {
+        const double way = (double)r->point_b[i] - (double)r->point_a[i];
+        off += fabs(way - (double)r->value * (double)r->normal[i]);
+        square += (double)r->normal[i] * (double)r->normal[i];
+    }
+    hold("the bracket of the depth holds", r, (quad)r->lower <= nearly.upper && nearly.lower <= (quad)r->upper,
+         (double)(quad_abs(off_truth(&nearly, (quad)r->lower)) + quad_abs(off_truth(&nearly, (quad)r->upper))));
+    hold("the status of the depth is ok", r, r->status == GJK_OK, r->status);
+    hold("the depth is near", r, (double)off_truth(&nearly, (quad)r->value) <= VALUE_ERROR * u_scale,
+         (double)off_truth(&nearly, (quad)r->value) / u_scale);
+    hold("the points are that deep", r, off <= 16 * u_scale, off / u_scale);
+    hold("the normal is of length 1", r, fabs(square) <= 16 * U, square / U);
+    hold("steps down are few", r, r->steps <= DEPTH_STEPS_MOST, r->steps);
+}
+
 /* Allowed so many steps or more than it takes, a query takes as many, and says the same. */
 static void check_limits(const V(result) * full)
 {
@@ -188,7 +213,7 @@ static void polygons(void **state)
             V(result) r;
             draws d = draws_from(21, (uint64_t)k, (uint64_t)at);
             memset(&r, 0, sizeof r);
-            if (sort == ON_A_GRID) {
+            if (sort == ON_A_GRID || sort == DEEP_ON_A_GRID) {
                 draw_grid_pair(&d);
             } else {
                 draw_polygons(&d);
@@ -203,6 +228,8 @@ static void polygons(void **state)
             check_limits(&r);
             assert_true(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
             check(&r, 1);
+            assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+            check_depth(&r);
         }
     }
     print_faults(&found, "polygons");
@@ -287,10 +314,44 @@ static void edge_of_an_ulp(void **state)
     assert_true((double)(r.upper - r.lower) <= DISTANCE_WIDTH * U * span_of_pair(&p.a, &p.b));
 }
 
+/* b touches a's edge with a corner of short numbers; by a shear another one is beyond that edge, by less than numbers
+ * of twice the digits show. */
+static void beyond_by_next_to_nothing(void **state)
+{
+    const double beyond = VARIANT_FLOAT ? 0x1p-14 : 0x1p-4;
+    static const double a[][2] = {{3, -1}, {3, 2}, {-1, 0}};
+    const double b[][2] = {{1, 0}, {5, 0}, {4 * U * U * (1 - beyond), 1 - 2 * U}};
+    V(result) r;
+    (void)state;
+    memset(&found, 0, sizeof found);
+    memset(&r, 0, sizeof r);
+    start_body(&p.a, POINTS);
+    start_body(&p.b, POINTS);
+    p.a.count = 3;
+    p.a.pose.p[0] = -2;
+    p.b.pose.m[1] = (real)(1 + 2 * U);
+    for (p.b.count = 3; p.b.count <= 8; p.b.count++) {
+        for (int i = 0; i < DIM; i++) {
+            for (int k = 0; k < p.b.count; k++) {
+                p.a.v[k % 3][i] = (real)a[k % 3][i];
+                p.b.v[k][i] = (real)b[k == 0 ? 0 : k + 1 < p.b.count ? 1 : 2][i];
+            }
+        }
+        bind_pair(&p);
+        find_truth(&nearly, &p.a, &p.b, 1);
+        assert_true(settle(&nearly, &best, &p.a, &p.b));
+        assert_true(nearly.upper < 0 && nearly.lower > (quad)(-8 * U * U));
+        assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+        check_depth(&r);
+    }
+    print_faults(&found, "beyond by next to nothing");
+    assert_int_equal(found.count, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(polygons), cmocka_unit_test(no_end_of_turning),
-                                       cmocka_unit_test(edge_of_an_ulp)};
+                                       cmocka_unit_test(edge_of_an_ulp), cmocka_unit_test(beyond_by_next_to_nothing)};
     exact_start(&best);
     return cmocka_run_group_tests_name("polygons of " VARIANT, tests, NULL, NULL);
 }

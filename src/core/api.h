@@ -691,7 +691,7 @@ HOT int tell_plainly(search *q, const shape *a, const shape *b, const options *o
         }
         if (q->thin != UNTRIED) return 0;
     }
-    return !deep && tell_at_once(q, a, b, o, sign_only, r);
+    return (!deep || (DIM == 2 && HAS_SISTER)) && tell_at_once(q, a, b, o, sign_only, deep, r);
 }
 
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)

@@ -875,19 +875,22 @@ HOT int settle_polygons(difference *d, const shape *a, const shape *b)
 
 /* The everyday question of two polygons: how far apart, or whether they meet. 0: it is left to the whole answer, which
  * goes on from there. */
-HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o, int sign_only, result *r)
+HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o, int sign_only, int deep, result *r)
 {
     q->planar = UNTRIED;
     q->flat = UNTRIED;
     if (!HAS_SISTER && (!list_polygon(&q->d.a, a) || !list_polygon(&q->d.b, b))) return 0;
+    const uint32_t most = deep ? DEEP_ASKED_MOST : ASKED_MOST;
     const goal g = {.beyond = REAL_MAX,
                     .radius = a->radius + b->radius,
                     .sign_only = sign_only,
-                    .max_steps = o && o->max_steps != 0 && o->max_steps < ASKED_MOST ? (int)o->max_steps : ASKED_MOST};
+                    .deep = deep,
+                    .max_steps = (int)(o && o->max_steps != 0 && o->max_steps < most ? o->max_steps : most)};
     if (HAS_SISTER) {
         q->flat = IN_VAIN;
         if (!tell_flat(a, b, o ? o->cache : NULL, &g, r)) return 0;
-        say_plainly(r, sign_only);
+        if (deep) r->value = smaller(larger(r->value, r->lower), r->upper);
+        else say_plainly(r, sign_only);
         return 1;
     }
     q->planar = UNCLEAR;
@@ -950,7 +953,7 @@ static inline int tell_polygons_in_frame(search *q, const shape *a, const shape 
 #define WHOLE inline
 #define are_planar(d) 0
 #define tell_flat(a, b, own, g, r) 0
-#define tell_at_once(q, a, b, o, sign_only, r) ((q)->planar = (q)->flat = UNTRIED, 0)
+#define tell_at_once(q, a, b, o, sign_only, deep, r) ((q)->planar = (q)->flat = UNTRIED, 0)
 #define tell_polygons(q, a, b, o, g, r) ((void)0)
 #define tell_polygons_in_frame(q, a, b, o, g, r) 0
 #endif
