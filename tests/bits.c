@@ -20,7 +20,7 @@ static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x062c
 static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x375210e9d7d6b96b};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xa5745a9325b4ebb8, 0x29d43ed900591c55, 0xe81497eea7ee0102};
+static const uint64_t known[3] = {0xe53c4a312379ec35, 0x183aae3d354bb1d9, 0xee3cccbd7040c9e1};
 #else
 #define V(name) gjk2f_##name
 static const uint64_t known[3] = {0x00dc116d58b4730f, 0x1417d009d4a9b2a1, 0xc9dec43a637396d5};

@@ -13,9 +13,9 @@
 #define DEPTH_STEPS_MOST 40
 #define PAIRS 1500 /* of each sort */
 
-enum sort { CIRCLING, CLUSTERS, ON_LINES, SHEARED, NEARLY_TOUCHING, ON_A_GRID, DEEP, DEEP_ON_A_GRID, SORTS };
-static const char *const sort_name[SORTS] = {"circling",        "clusters",  "on lines", "sheared",
-                                             "nearly touching", "on a grid", "deep",     "deep on a grid"};
+enum sort { CIRCLING, CLUSTERS, ON_LINES, SHEARED, NEARLY_TOUCHING, ON_A_GRID, DEEP, DEEP_ON_A_GRID, TWINS, SORTS };
+static const char *const sort_name[SORTS] = {"circling",  "clusters", "on lines",       "sheared", "nearly touching",
+                                             "on a grid", "deep",     "deep on a grid", "twins"};
 
 static exact best;
 static truth nearly;
@@ -81,6 +81,20 @@ static void bring_near(draws *d)
     assert_true(V(distance)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
     for (int i = 0; i < DIM; i++) {
         p.b.pose.p[i] = (real)((double)p.b.pose.p[i] - (double)r.normal[i] * ((double)r.value - but));
+    }
+    bind_pair(&p);
+}
+
+/* b becomes another a, thin or not, moved by some roundings: of edges that are as far to both sides one is nearer. */
+static void make_twins(draws *d)
+{
+    const double wide = below(d, 2) ? 1 : 0x1p-6;
+    for (int k = 0; k < p.a.count; k++) {
+        p.a.v[k][1] = (real)((double)p.a.v[k][1] * wide);
+    }
+    p.b = p.a;
+    for (int i = 0; i < DIM; i++) {
+        p.b.pose.p[i] = (real)((double)p.a.pose.p[i] + 4 * U * (below(d, 9) - 4));
     }
     bind_pair(&p);
 }
@@ -183,9 +197,25 @@ static void check_depth(const V(result) * r)
     hold("the status of the depth is ok", r, r->status == GJK_OK, r->status);
     hold("the depth is near", r, (double)off_truth(&nearly, (quad)r->value) <= VALUE_ERROR * u_scale,
          (double)off_truth(&nearly, (quad)r->value) / u_scale);
-    hold("the points are that deep", r, off <= 16 * u_scale, off / u_scale);
+    hold("the points are that deep", r, r->value > 0 || off <= 16 * u_scale, off / u_scale);
     hold("the normal is of length 1", r, fabs(square) <= 16 * U, square / U);
     hold("steps down are few", r, r->steps <= DEPTH_STEPS_MOST, r->steps);
+}
+
+/* Asked for, the depth of sharp ones is to the last place. */
+static void check_last_place(void)
+{
+    V(options) o;
+    V(result) r;
+    memset(&o, 0, sizeof o);
+    memset(&r, 0, sizeof r);
+    o.size = sizeof o;
+    o.tight = 1;
+    assert_true(V(penetration)(&p.a.shape, &p.b.shape, &o, &r) >= 0);
+    hold("the bracket to the last place holds", &r, (quad)r.lower <= nearly.upper && nearly.lower <= (quad)r.upper, 0);
+    hold("it is to the last place", &r,
+         p.a.shape.radius > 0 || (r.status == GJK_OK && (double)(r.upper - r.lower) <= 4 * U * fabs((double)r.lower)),
+         (double)(r.upper - r.lower) / U / fabs((double)r.lower));
 }
 
 /* Allowed so many steps or more than it takes, a query takes as many, and says the same. */
@@ -218,6 +248,9 @@ static void polygons(void **state)
             } else {
                 draw_polygons(&d);
             }
+            if (sort == TWINS) {
+                make_twins(&d);
+            }
             if (sort == NEARLY_TOUCHING) {
                 bring_near(&d);
             }
@@ -230,6 +263,7 @@ static void polygons(void **state)
             check(&r, 1);
             assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
             check_depth(&r);
+            check_last_place();
         }
     }
     print_faults(&found, "polygons");
@@ -314,44 +348,110 @@ static void edge_of_an_ulp(void **state)
     assert_true((double)(r.upper - r.lower) <= DISTANCE_WIDTH * U * span_of_pair(&p.a, &p.b));
 }
 
-/* b touches a's edge with a corner of short numbers; by a shear another one is beyond that edge, by less than numbers
- * of twice the digits show. */
-static void beyond_by_next_to_nothing(void **state)
+/* b's first corner touches a's edge, its last one is beyond that by less than numbers of twice the digits show; those
+ * between are all alike. */
+static void expect_next_to_nothing(const double of_a[3][2], const double of_b[3][2])
 {
-    const double beyond = VARIANT_FLOAT ? 0x1p-14 : 0x1p-4;
-    static const double a[][2] = {{3, -1}, {3, 2}, {-1, 0}};
-    const double b[][2] = {{1, 0}, {5, 0}, {4 * U * U * (1 - beyond), 1 - 2 * U}};
     V(result) r;
-    (void)state;
-    memset(&found, 0, sizeof found);
     memset(&r, 0, sizeof r);
-    start_body(&p.a, POINTS);
-    start_body(&p.b, POINTS);
     p.a.count = 3;
-    p.a.pose.p[0] = -2;
-    p.b.pose.m[1] = (real)(1 + 2 * U);
     for (p.b.count = 3; p.b.count <= 8; p.b.count++) {
         for (int i = 0; i < DIM; i++) {
             for (int k = 0; k < p.b.count; k++) {
-                p.a.v[k % 3][i] = (real)a[k % 3][i];
-                p.b.v[k][i] = (real)b[k == 0 ? 0 : k + 1 < p.b.count ? 1 : 2][i];
+                p.a.v[k % 3][i] = (real)of_a[k % 3][i];
+                p.b.v[k][i] = (real)of_b[k == 0 ? 0 : k + 1 < p.b.count ? 1 : 2][i];
             }
         }
         bind_pair(&p);
         find_truth(&nearly, &p.a, &p.b, 1);
         assert_true(settle(&nearly, &best, &p.a, &p.b));
-        assert_true(nearly.upper < 0 && nearly.lower > (quad)(-8 * U * U));
+        assert_true(nearly.upper < 0 && nearly.lower > (quad)(-8 * U));
         assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
         check_depth(&r);
     }
+}
+
+/* By a shear; or by a number of all digits, whose height along an edge rounds to nothing in double. */
+static void beyond_by_next_to_nothing(void **state)
+{
+    const double beyond = VARIANT_FLOAT ? 0x1p-14 : 0x1p-4;
+    static const double a[3][2] = {{3, -1}, {3, 2}, {-1, 0}}, c[3][2] = {{2, 4}, {4, -2}, {-2, -4}};
+    const double b[3][2] = {{1, 0}, {5, 0}, {4 * U * U * (1 - beyond), 1 - 2 * U}};
+    const double d[3][2] = {{0, 0}, {4, -4}, {(1 - U) / 3, -1}};
+    (void)state;
+    memset(&found, 0, sizeof found);
+    start_body(&p.a, POINTS);
+    start_body(&p.b, POINTS);
+    p.a.pose.p[0] = -3;
+    p.a.pose.p[1] = -1;
+    expect_next_to_nothing(c, d);
+    start_body(&p.b, POINTS);
+    p.a.pose.p[0] = -2;
+    p.a.pose.p[1] = 0;
+    p.b.pose.m[1] = (real)(1 + 2 * U);
+    expect_next_to_nothing(a, b);
     print_faults(&found, "beyond by next to nothing");
+    assert_int_equal(found.count, 0);
+}
+
+/* Rounding took another of a's twins' edges for the lowest: of two as far to both sides, and of two in line. */
+static void known_twins(void **state)
+{
+    static const struct {
+        int count;
+        double at[7][2], cosine, sine, to[2];
+    } twin[] = {{3,
+                 {{1.6255248015568711, 0.0068914723917921031},
+                  {0.27179421544730586, -0.015919072868857215},
+                  {1.8766804705299271, -0.0045494028709258099}},
+                 -0.66663398324506773,
+                 -0.74538522415111963,
+                 {-4.4408920985006262e-16, -4.4408920985006262e-16}},
+                {7,
+                 {{-0.83742558112897825, -0.029538746980074852},
+                  {0.56352123011708488, -0.099210127953121383},
+                  {0.56352123011708488, 0.00033170856490752354},
+                  {-0.85902051657645262, 0.00033170856490752354},
+                  {1.0339249561678185, 0.00033170856490752354},
+                  {0.56483926507696314, -0.0991251850031378},
+                  {0.80612691330796027, -0.077308373142804712}},
+                 0.80024964341130589,
+                 0.59966699777466304,
+                 {8.8817841970012523e-16, 1.3322676295501878e-15}}};
+    (void)state;
+    memset(&found, 0, sizeof found);
+    for (size_t n = 0; n < sizeof twin / sizeof *twin; n++) {
+        V(result) r;
+        memset(&r, 0, sizeof r);
+        start_body(&p.a, POINTS);
+        p.a.count = twin[n].count;
+        for (int k = 0; k < p.a.count; k++) {
+            for (int i = 0; i < DIM; i++) {
+                p.a.v[k][i] = (real)twin[n].at[k][i];
+            }
+        }
+        p.a.pose.m[0] = p.a.pose.m[3] = (real)twin[n].cosine;
+        p.a.pose.m[1] = (real)-twin[n].sine;
+        p.a.pose.m[2] = (real)twin[n].sine;
+        p.b = p.a;
+        for (int i = 0; i < DIM; i++) {
+            p.b.pose.p[i] = (real)twin[n].to[i];
+        }
+        bind_pair(&p);
+        find_truth(&nearly, &p.a, &p.b, 1);
+        assert_true(settle(&nearly, &best, &p.a, &p.b));
+        assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+        check_depth(&r);
+    }
+    print_faults(&found, "known twins");
     assert_int_equal(found.count, 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(polygons), cmocka_unit_test(no_end_of_turning),
-                                       cmocka_unit_test(edge_of_an_ulp), cmocka_unit_test(beyond_by_next_to_nothing)};
+                                       cmocka_unit_test(edge_of_an_ulp), cmocka_unit_test(beyond_by_next_to_nothing),
+                                       cmocka_unit_test(known_twins)};
     exact_start(&best);
     return cmocka_run_group_tests_name("polygons of " VARIANT, tests, NULL, NULL);
 }

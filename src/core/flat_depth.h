@@ -20,17 +20,23 @@ HOT mark mark_of(const dspot *p) { return (mark){dfirst(p->w), dsecond(p->w), p-
 
 HOT dspot dspot_at(const flat *f, const mark *p) { return dspot_of(f, at_in_a(p->at), at_in_b(p->at)); }
 
-/* Stands on the ring's lowest edge, beyond which no corner lies, and which has been asked along. 0: it is not known. */
+HOT void stand_in_flat_ring(const flat *f, const ring *o, unsigned i, dfront *k)
+{
+    k->p = dspot_at(f, &o->at[i]);
+    k->q = dspot_at(f, &o->at[o->next[i]]);
+    k->n = 2;
+    k->around = 0;
+}
+
+/* Stands beside the origin on the ring's lowest edge, beyond which no corner lies, and which has been asked along; or
+ * on one in line with it. 0: it is not known. */
 HOT int find_floor(const flat *f, dfront *k, const goal *g, dsight *s)
 {
     ring o;
     start_ring(&o, mark_of(&k->p), mark_of(&k->q), mark_of(&k->last));
     for (;;) {
         const unsigned i = lowest_of_ring(&o);
-        k->p = dspot_at(f, &o.at[i]);
-        k->q = dspot_at(f, &o.at[o.next[i]]);
-        k->n = 2;
-        k->around = 0;
+        stand_in_flat_ring(f, &o, i, k);
         const dvec e = dsub(k->q.w, k->p.w);
         if (o.count == RING_MOST || k->steps >= g->max_steps || !(ddot(e, e) > 0)) return 0;
         k->v = dturned(e);
@@ -38,9 +44,20 @@ HOT int find_floor(const flat *f, dfront *k, const goal *g, dsight *s)
         s->v = k->v;
         s->per = 1 / dlength(e);
         s->far = dcross(k->p.w, e) * s->per;
-        if (!(-k->height * s->per - s->far > f->blur)) return 1;
+        if (!(-k->height * s->per - s->far > f->blur)) {
+            const unsigned beside = edge_beside(&o, i);
+            if (beside != i) stand_in_flat_ring(f, &o, beside, k);
+            return 1;
+        }
         split_edge(&o, i, mark_of(&k->last));
     }
+}
+
+/* The nearest point of the front is as far along its normal, and not beside it. */
+HOT int is_square_to(const flat *f, const dsight *s)
+{
+    const dvec off = dsizes(dadd(s->way, dmul(s->v, s->far * s->per)));
+    return dfirst(off) + dsecond(off) <= f->wide;
 }
 
 /* How deep, from three corners on that hold the origin. 0: they hardly overlap, and it is not known that they touch. */
@@ -51,8 +68,8 @@ static APART int tell_flat_deep(const flat *f, dfront *k, const shape *a, const 
     if (!find_floor(f, k, g, &s)) return 0;
     if (!(s.far > blur)) return 0;
     const double lower = k->height * s.per - f->radius - blur, upper = blur - s.far - f->radius;
-    if (!(upper - lower <= f->wide) || !(1 > f->blur * AWAY * s.per)) return 0;
     sight_flat(k, &s);
+    if (!(upper - lower <= f->wide) || !(1 > f->blur * AWAY * s.per) || !is_square_to(f, &s)) return 0;
     if (f->radius > 0) move_flat(&s, (double)a->radius, (double)b->radius, 1, 1);
     return spell_flat(f, k, &s, lower, upper, -s.far - f->radius, 1, r);
 }

@@ -483,18 +483,24 @@ HOT twin length_by_digits(vec w, vec low)
     return (twin){l, (square + more) / (2 * l)};
 }
 
-/* By how much a corner of the body may rise above that one along the direction of length l, and by how much one seems
- * to, in roundings of the edge there. Those that are lower by the margin for certain are passed over. */
-static real rise_of_body(const body *k, const cluster *p, unsigned at, vec v, real l, real margin, real *seems)
+/* Bit for bit, which other corners of the body are not lower along v than that one by the margin for certain. */
+HOT unsigned near_corners(const cluster *p, unsigned at, vec v, real margin)
 {
     const real least = dot(place_of(p, at), v) - margin;
     lanes heights[PLACES / LANES];
     unsigned near = 0;
-    real most = 0;
     raise_placed(p, v, heights);
     for (int i = 0; i < PLACES; i += LANES) near |= (unsigned)any_as_large(heights[i / LANES], in_all(least)) << i;
     if (p->from->count < RUN) near &= (1u << p->from->count) - 1; /* none again */
-    for (near &= ~(1u << at); near != 0; near &= near - 1) {
+    return near & ~(1u << at);
+}
+
+/* By how much a corner of the body may rise above that one along the direction of length l, and by how much one seems
+ * to, in roundings of the edge there. */
+static real rise_of_body(const body *k, const cluster *p, unsigned at, vec v, real l, real margin, real *seems)
+{
+    real most = 0;
+    for (unsigned near = near_corners(p, at, v, margin); near != 0; near &= near - 1) {
         const vec way = sub(own_of(p, first_bit(near)), own_of(p, at));
         const real edge = k->posed ? length(map_size(p->m, way)) : length(way), rise = dot(map(p->m, way), v) / l;
         most = larger(rise + lost_of_rise(edge, rise), most);
@@ -507,6 +513,12 @@ static real rise_of_body(const body *k, const cluster *p, unsigned at, vec v, re
 static inline real sums_between(const cluster *p, unsigned from, unsigned to)
 {
     return spread(map_size(p->m, sub(own_of(p, to), own_of(p, from))));
+}
+
+/* What is charged where a corner's place is known to twice the digits. */
+static inline real blur_of(const difference *d)
+{
+    return d->doubt / PLANAR_DOUBT * (UNIT / 8) + (d->wild ? d->lost : 0);
 }
 
 /* So near that rounding hides it: the front's first corner to twice the digits, and how much lower another may lie by
@@ -522,7 +534,7 @@ static APART int tell_finely(search *q, const scene *k, front own, const shape *
     if (f->n == 1) f->v = add(p->w, low);
     t.v = f->v;
     t.l = length(f->v);
-    const real whole = d->doubt / PLANAR_DOUBT, blur = whole * (UNIT / 8) + (d->wild ? d->lost : 0);
+    const real whole = d->doubt / PLANAR_DOUBT, blur = blur_of(d);
     const real margin = d->doubt * t.l;
     real seems = 0;
     const real fall = rise_of_body(&d->a, &k->a, in_a(p), mul(f->v, -1), t.l, margin, &seems) +
@@ -598,8 +610,32 @@ HOT int weigh_front(const front *f, const spot *const at[3], real weight[3])
     return (f->around || turn == 0) && (least < 0) != (most > 0);
 }
 
-/* That the cores meet where the walk has come to, of corners that are short numbers: with nothing rounded. 0: they are
- * none, or do not, or there is no direction. */
+/* All of the body's numbers are short, and all its places as those of corners of the difference are. */
+static fours odds_of_places(fours odds, const body *k, const cluster *p, real power)
+{
+    const real level = leveler(k->norm * (1 + LENGTH_OFF)), share = level / 2 * power;
+    odds = odds_of(odds, join_fours(p->m), SHORT, 2 / level);
+    for (int i = 0; i < DIM; i++)
+        for (int j = 0; j < PLACES; j += 4) {
+            odds = odds_of(odds, join_fours(p->own[i] + j), SHORT, share);
+            odds = odds_of(odds, join_fours(p->at[i] + j), SHORTER, power);
+        }
+    return odds;
+}
+
+/* Nor was anything on the way to any corner, nor is in its height along an edge, or along the way between the
+ * positions. */
+static int are_all_whole(const difference *d, const scene *k, const shape *a, const shape *b)
+{
+    const real power = 2 / leveler(d->doubt / PLANAR_DOUBT), x = d->c.c[0], y = d->c.c[1];
+    fours odds = odds_of_places(fours_of(0, 0, 0, 0), &d->a, &k->a, power);
+    odds = odds_of_places(odds, &d->b, &k->b, power);
+    odds = odds_of(odds, fours_of(x, y, x, y), SHORTER, power);
+    return is_way_short(d, a, b, power) && are_none(odds);
+}
+
+/* That the cores meet where the walk has come to, of corners that are short numbers: with nothing rounded; and that
+ * they do no more, if that is asked. 0: they are none, or do not, or there is no direction. */
 static APART int tell_touching(search *q, const scene *k, front own, int framed, const shape *a, const shape *b,
                                const goal *g, result *r)
 {
@@ -607,13 +643,14 @@ static APART int tell_touching(search *q, const scene *k, front own, int framed,
     const spot *const at[3] = {&f->p, f->n > 1 ? &f->q : &f->p, f->around ? &f->last : &f->p};
     verdict t = {.v = f->way, .l = length(f->way), .value = 0};
     real weight[3];
-    if (framed || g->deep || !(f->around || f->ended) || f->steps == 0) return 0;
+    if (framed || !(f->around || f->ended) || f->steps == 0) return 0;
     if (!weigh_front(f, at, weight) || !are_spots_whole(&q->d, k, at, a, b)) return 0;
+    if (g->deep && (dot(f->way, f->last.w) != 0 || !are_all_whole(&q->d, k, a, b))) return 0;
     q->lower = -REAL_MAX;
     q->d.slack = 0;
     raise(q, f->way, f->last.w);
     if (!(q->lower > -REAL_MAX)) return 0;
-    t.lower = q->lower;
+    t.lower = g->deep ? 0 : q->lower; /* so high all of them lie */
     t.upper = 0;
     const real sum = size(weight[0]) + size(weight[1]) + size(weight[2]);
     vec x = axis(0, 0), y = x;
@@ -663,7 +700,6 @@ HOT int tell_held(search *q, const scene *k, const front *f, int framed, const s
     const spot *at[3] = {&f->p, &f->q, &f->last};
     simplex s;
     real weight[DIM + 1];
-    if (g->deep) return 0;
     clear(&s);
     s.n = 3;
     for (int i = 0; i < 3; i++) s.slot[i].w = at[i]->w;
@@ -681,6 +717,110 @@ HOT int tell_held(search *q, const scene *k, const front *f, int framed, const s
     t.way = sub(t.a, add(t.b, d->c));
     if (!(peak(t.way) <= d->doubt / 3)) return 0; /* the pair is none */
     return spell_verdict(q, &t, f, framed, a, b, g, r);
+}
+
+/* ---- how deep ---- */
+
+HOT mark mark_of_spot(const spot *p) { return (mark){(ring_real)p->w.c[0], (ring_real)p->w.c[1], p->at}; }
+
+/* Of an edge of the ring, or of what is taken for one. */
+HOT void stand_in_ring(const difference *d, const scene *k, const ring *o, unsigned i, front *f)
+{
+    stand_on_edge(k, f, spot_at(d, k, o->at[i].at), spot_at(d, k, o->at[o->next[i]].at));
+    f->v = (vec){{-f->edge.c[1], f->edge.c[0]}};
+}
+
+/* Grows beyond the lowest edge until no corner lies there, but for the doubt. 0: it is not known. */
+static int grow_planar_ring(const difference *d, const scene *k, front *f, const goal *g, ring *o)
+{
+    start_ring(o, mark_of_spot(&f->p), mark_of_spot(&f->q), mark_of_spot(&f->last));
+    for (;;) {
+        const unsigned i = lowest_of_ring(o);
+        stand_in_ring(d, k, o, i, f);
+        if (o->count == RING_MOST || f->steps >= g->max_steps || !(dot(f->v, f->v) > 0)) return 0;
+        ask_ahead(d, k, f);
+        f->around = 0;
+        f->ended = !(dot(f->v, sub(f->p.w, f->last.w)) > d->doubt * length(f->v));
+        if (f->ended) return 1;
+        split_edge(o, i, mark_of_spot(&f->last));
+    }
+}
+
+/* A corner's height along v to twice the digits. */
+static twin height_finely(const difference *d, const scene *k, vec v, const spot *p, const shape *a, const shape *b)
+{
+    const closest at = pair_at_spot(k, p);
+    return height_to_twice(v, p->w, lost_finely(d, k, &at, a, b));
+}
+
+/* An edge of the ring, where it starts, the heights of its ends along v to twice the digits, and how near the origin it
+ * is at least. */
+typedef struct ledge {
+    front f;
+    unsigned at;
+    twin from, to;
+    real far;
+} ledge;
+
+/* Of those that are as low but for the doubt the lowest. */
+static void lowest_finely(const difference *d, const scene *k, const ring *o, const shape *a, const shape *b,
+                          ledge *best)
+{
+    const ring_real low = o->far[lowest_of_ring(o)] + 8 * (ring_real)d->doubt;
+    ledge e = *best;
+    best->far = REAL_MAX;
+    for (unsigned i = 0; i < o->count; i++) {
+        if (o->far[i] > low) continue;
+        stand_in_ring(d, k, o, i, &e.f);
+        e.at = i;
+        e.from = height_finely(d, k, e.f.v, &e.f.p, a, b);
+        e.to = height_finely(d, k, e.f.v, &e.f.q, a, b);
+        e.far = smaller(-e.from.high - e.from.low, -e.to.high - e.to.low);
+        if (e.far < best->far) *best = e;
+    }
+}
+
+/* How much lower along v than the first corner of the edge another one of the body lies, to twice the digits. */
+static real fall_finely(const difference *d, const scene *k, const ledge *e, int of_b, const shape *a, const shape *b)
+{
+    const front *f = &e->f;
+    const real margin = d->doubt * length(f->v);
+    const cluster *p = of_b ? &k->b : &k->a;
+    unsigned near = near_corners(p, of_b ? in_b(&f->p) : in_a(&f->p), of_b ? f->v : mul(f->v, -1), margin);
+    real fall = 0;
+    for (; near != 0; near &= near - 1) {
+        const unsigned nth = first_bit(near);
+        const spot at = spot_at(d, k, of_b ? in_a(&f->p) + PLACES * nth : nth + PLACES * in_b(&f->p));
+        const twin h = at.at == f->q.at ? e->to : height_finely(d, k, f->v, &at, a, b);
+        fall = larger((e->from.high - h.high) + (e->from.low - h.low), fall);
+    }
+    return fall;
+}
+
+/* How deep, from the edge and the corner asked for last on, which hold the origin. 0: they hardly overlap, and it is
+ * not known that they touch; or rounding leaves open beyond which edge nothing lies. */
+static APART int tell_deep(search *q, const scene *k, front own, int framed, const shape *a, const shape *b,
+                           const goal *g, result *r)
+{
+    const difference *d = &q->d;
+    ledge e = {.f = own};
+    ring o;
+    if (!grow_planar_ring(d, k, &e.f, g, &o)) return 0;
+    if (!(o.far[lowest_of_ring(&o)] > 4 * (ring_real)d->doubt))
+        return g->radius == 0 && tell_touching(q, k, e.f, framed, a, b, g, r);
+    lowest_finely(d, k, &o, a, b, &e);
+    front *f = &e.f;
+    const real fall = fall_finely(d, k, &e, 0, a, b) + fall_finely(d, k, &e, 1, a, b);
+    const real blur = blur_of(d), broad = d->doubt / PLANAR_DOUBT / 2 + (a->radius + b->radius) * d->scale;
+    verdict t = {.v = f->v, .l = length(f->v), .value = gap_of(d, e.from, a, b)};
+    stand_in_ring(d, k, &o, edge_beside(&o, e.at), f);
+    const closest pair = pair_at_front(d, k, f, share_of_edge(f));
+    place_verdict(k, &pair, &t);
+    t.lower = e.from.high + (e.from.low - fall - 3 * blur - 2 * UNIT * size(e.from.high));
+    t.upper = blur + 3 * UNIT * e.far - e.far;
+    if (!(e.far > 3 * d->doubt && fall <= UNIT * broad && t.upper - t.lower <= BROAD * broad)) return 0;
+    if (!(spread(sub(t.way, mul(t.v, e.from.high / t.l))) <= BROAD / 2 * broad)) return 0; /* the pair is beside it */
+    return spell_in_full(q, t, f->steps, 2, a, b, r);
 }
 
 /* What the corner asked for last shows, where it is only asked whether they meet: that they are apart. The line of
@@ -776,7 +916,8 @@ HOT int look_at_planar(search *q, cache *own, int framed, const shape *a, const 
     const enum halt at = walk_front(d, &k, &f, g);
     int told = at == SHOWN      ? tell_apart_at(q, &k, &f, framed, a, b, g, r)
                : at == FOREMOST ? tell_front(q, &k, &f, framed, a, b, g, r)
-               : at == AROUND   ? tell_held(q, &k, &f, framed, a, b, g, r)
+               : at == AROUND   ? g->deep ? !HAS_SISTER && tell_deep(q, &k, f, framed, a, b, g, r)
+                                          : tell_held(q, &k, &f, framed, a, b, g, r)
                                 : 0;
     if (!told) told = tell_touching(q, &k, f, framed, a, b, g, r);
     if (told && f.n == 0) stand_on_corner(&f, f.last);

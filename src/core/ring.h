@@ -94,6 +94,18 @@ HOT void split_edge(ring *o, unsigned from, mark p)
     link_ring(o, at, to);
 }
 
+/* The edge that the origin is beside, from the lowest on: of edges in line rounding may take another for that. */
+HOT unsigned edge_beside(const ring *o, unsigned i)
+{
+    for (unsigned n = 0; n < o->count; n++) {
+        const mark *p = &o->at[i], *q = &o->at[o->next[i]];
+        const ring_real x = q->x - p->x, y = q->y - p->y, along = -(p->x * x + p->y * y);
+        if (along >= 0 && along <= x * x + y * y) break;
+        i = along < 0 ? o->last[i] : o->next[i];
+    }
+    return i;
+}
+
 #endif
 
 #endif
