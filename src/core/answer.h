@@ -144,15 +144,17 @@ static inline int asks_nothing_else(const options *o)
                   size(o->abs_tol) + size(o->rel_tol) + size(o->cutoff) + size(o->slack) == 0);
 }
 
-/* As the question has it: of the distance none is below 0. */
-HOT void say_plainly(result *r, int sign_only)
+/* As the question has it: of the distance none is below 0, of the depth all are what they are. */
+HOT void say_plainly(result *r, int sign_only, int deep)
 {
     if (sign_only) {
         r->value = r->lower > 0 ? r->lower : r->upper;
         return;
     }
-    r->upper = larger(r->upper, 0);
-    r->lower = larger(r->lower, 0);
+    if (!deep) {
+        r->upper = larger(r->upper, 0);
+        r->lower = larger(r->lower, 0);
+    }
     r->value = smaller(larger(r->value, r->lower), r->upper);
 }
 

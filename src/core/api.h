@@ -685,8 +685,7 @@ HOT int tell_plainly(search *q, const shape *a, const shape *b, const options *o
         const goal g = {.beyond = REAL_MAX, .radius = a->radius + b->radius, .sign_only = sign_only, .deep = deep};
         q->thin = tell_thin_at_once(a, b, o ? o->cache : NULL, &g, r);
         if (q->thin == TELLING) {
-            if (deep) r->value = smaller(larger(r->value, r->lower), r->upper);
-            else say_plainly(r, sign_only);
+            say_plainly(r, sign_only, deep);
             return 1;
         }
         if (q->thin != UNTRIED) return 0;

@@ -3,7 +3,7 @@
  * on. A map's products have all their digits there, nothing under- or overflows and needs a frame, and the walk sees
  * gaps that are far below what float rounds: so it ends where the truth is, and the last corner that it asks for proves
  * it, with what double rounds charged (docs/bounds.md). Nothing else of the bodies is set up. Overlaps by less than
- * that, or deeper where the depth is asked, are left to others. */
+ * that are left to others, but for contact of short numbers. */
 #ifndef GJK_CORE_FLAT_H
 #define GJK_CORE_FLAT_H
 

@@ -1030,8 +1030,7 @@ HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o
     if (HAS_SISTER) {
         q->flat = IN_VAIN;
         if (!tell_flat(a, b, o ? o->cache : NULL, &g, r)) return 0;
-        if (deep) r->value = smaller(larger(r->value, r->lower), r->upper);
-        else say_plainly(r, sign_only);
+        say_plainly(r, sign_only, deep);
         return 1;
     }
     q->planar = UNCLEAR;
@@ -1039,7 +1038,7 @@ HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o
     if (!settle_polygons(&q->d, a, b)) return 0;
     q->planar = IN_VAIN;
     if (!look_at_planar(q, o ? o->cache : NULL, 0, a, b, &g, r)) return 0;
-    say_plainly(r, sign_only);
+    say_plainly(r, sign_only, deep);
     return 1;
 }
 
