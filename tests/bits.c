@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x25b1badce70f92ff, 0x2632791e1830972c, 0x062cc32a984d168d};
+static const uint64_t known[3] = {0x5bae16ea7dbe29a7, 0x5be0a03cec258eaf, 0x062cc32a984d168d};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x9a872f94d6b6c8ae, 0xde5af4ae8ea57c43, 0x375210e9d7d6b96b};
+static const uint64_t known[3] = {0xa952116dee02cbd3, 0x80d102ff1fc47271, 0xbeb2909f7f3cadaf};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xe53c4a312379ec35, 0x183aae3d354bb1d9, 0xee3cccbd7040c9e1};
+static const uint64_t known[3] = {0x1d195d5d1989e02a, 0x6580fd0bc727dc45, 0xee3cccbd7040c9e1};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x00dc116d58b4730f, 0x1417d009d4a9b2a1, 0xc9dec43a637396d5};
+static const uint64_t known[3] = {0x45b9048d14a44945, 0x3e81b7b64c34c87c, 0xfc87a0265c6b9fe0};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -478,6 +478,103 @@ static void crossing_by_next_to_nothing(void **state)
     assert_int_equal(found.count, 0);
 }
 
+/* Middles so near to each other that the way between the segments is lost in what their ends round: its direction is
+ * not. */
+static void crossing_at_middles(void **state)
+{
+    (void)state;
+    sort = ACROSS;
+    memset(&found, 0, sizeof found);
+    for (at = 0; at < 400; at++) {
+        draws d = draws_from(16, 0, (uint64_t)at);
+        const double by = ldexp(1, -(int)below(&d, sizeof(real) == 8 ? 70 : 56));
+        long told[3] = {0};
+        for (int k = 0; k < 2; k++) {
+            body *b = k ? &p.b : &p.a;
+            double x[DIM];
+            start_body(b, SEGMENT);
+            unit(&d, x);
+            for (int i = 0; i < DIM; i++) {
+                b->v[0][i] = (real)x[i];
+                b->v[1][i] = -b->v[0][i];
+                b->pose.p[i] = (real)(k ? by * between(&d, -1, 1) : 0);
+            }
+            turn(&d, b, 100);
+            memset(p.a.pose.p, 0, sizeof p.a.pose.p);
+        }
+        bind_pair(&p);
+        p.a.shape.radius = p.b.shape.radius = (real)0.0625;
+        ask_all(told);
+    }
+    print_faults(&found, "thin");
+    assert_int_equal(found.count, 0);
+}
+
+/* Of sizes that leave no frame they are refused, whatever cancels. */
+static void beyond_a_frame(void **state)
+{
+    (void)state;
+    for (at = 0; at < 4; at++) {
+        V(result) r;
+        start_body(&p.a, SEGMENT);
+        start_body(&p.b, at % 2 ? SEGMENT : ORIGIN);
+        p.a.v[0][0] = p.a.v[0][1] = 1;
+        p.a.v[1][0] = p.a.v[1][1] = 2;
+        p.a.pose.m[0] = REAL_MAX / 2;
+        p.a.pose.m[1] = at < 2 ? REAL_MAX / 2 : -REAL_MAX / 2;
+        p.b.v[1][0] = 1;
+        p.b.pose.p[1] = 3;
+        bind_pair(&p);
+        assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, NULL, &r), GJK_BAD_SUPPORT);
+        assert_int_equal(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r), GJK_BAD_SUPPORT);
+        assert_int_equal(V(penetration)(&p.b.shape, &p.a.shape, NULL, &r), GJK_BAD_SUPPORT);
+    }
+}
+
+/* Where numbers end before a body does, its point is at their edge. */
+static void at_the_edge_of_numbers(void **state)
+{
+    (void)state;
+    for (at = 0; at < 2; at++) {
+        V(result) r;
+        start_body(&p.a, SEGMENT);
+        start_body(&p.b, at ? SEGMENT : ORIGIN);
+        for (int i = 0; i < DIM; i++) {
+            p.a.v[1][i] = REAL_MAX / 64;
+            p.a.pose.p[i] = p.b.pose.p[i] = REAL_MAX;
+        }
+        p.b.v[1][0] = -REAL_MAX / 64;
+        p.b.pose.p[0] = REAL_MAX / 16 * 15;
+        bind_pair(&p);
+        p.a.shape.radius = p.b.shape.radius = REAL_MAX / 256;
+        assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, NULL, &r), GJK_OK);
+        assert_true(r.lower > 0 && r.upper <= REAL_MAX);
+        for (int i = 0; i < DIM; i++) {
+            assert_true(fabs((double)r.point_a[i]) <= (double)REAL_MAX);
+            assert_true(fabs((double)r.point_b[i]) <= (double)REAL_MAX);
+        }
+    }
+}
+
+/* Radii that are none are refused. */
+static void radii_that_are_none(void **state)
+{
+    (void)state;
+    for (at = 0; at < 4; at++) {
+        V(result) r;
+        start_body(&p.a, SEGMENT);
+        start_body(&p.b, at % 2 ? SEGMENT : ORIGIN);
+        p.a.v[1][0] = p.b.v[1][1] = 1;
+        p.b.pose.p[0] = 9;
+        bind_pair(&p);
+        p.a.shape.radius = at < 2 ? -1 : (real)NAN;
+        p.b.shape.radius = 3;
+        assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, NULL, &r), GJK_BAD_ARGUMENT);
+        assert_int_equal(V(intersect)(&p.b.shape, &p.a.shape, NULL, &r), GJK_BAD_ARGUMENT);
+        assert_int_equal(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r), GJK_BAD_ARGUMENT);
+    }
+}
+
 /* Two points, or one, are as good as a segment, however they are spelled: whether they touch is told. */
 static void touching_as_points(void **state)
 {
@@ -565,10 +662,17 @@ static void between_two_sides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thin_bodies),        cmocka_unit_test(with_options),
-        cmocka_unit_test(in_another_unit),    cmocka_unit_test(crossing_by_next_to_nothing),
-        cmocka_unit_test(in_boxes),           cmocka_unit_test(between_two_sides),
+        cmocka_unit_test(thin_bodies),
+        cmocka_unit_test(with_options),
+        cmocka_unit_test(in_another_unit),
+        cmocka_unit_test(crossing_by_next_to_nothing),
+        cmocka_unit_test(in_boxes),
+        cmocka_unit_test(between_two_sides),
         cmocka_unit_test(touching_as_points),
+        cmocka_unit_test(crossing_at_middles),
+        cmocka_unit_test(beyond_a_frame),
+        cmocka_unit_test(radii_that_are_none),
+        cmocka_unit_test(at_the_edge_of_numbers),
     };
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -34,6 +34,13 @@ static inline real below_scaled(real radius, real level, real up)
     return r * up > radius ? r - TINY : r;
 }
 
+/* A bound in the caller's unit; a subnormal one is rounded. */
+static real rescaled(real bound, real unscale, real way_out)
+{
+    real r = bound * unscale;
+    return size(r) < REAL_MIN ? r + way_out * 2 * TINY : r;
+}
+
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
 static void bracket(result *r, const difference *d, real lower, real upper, const shape *a, const shape *b)
 {
@@ -81,28 +88,60 @@ HOT vec moved(const pose *o, vec x, real down, real level)
 
 static inline real far_out(const shape *s) { return s->pose ? peak(load(s->pose->p)) : 0; }
 
-/* The points x and y, from the bodies' positions, way apart in the frame, from the cores' to the shapes': each moves
- * toward the other by its radius, or, where the radii reach across, both move to one point between. */
+/* A point of each body. */
+typedef struct two_points {
+    vec a, b;
+} two_points;
+
+/* The points x and y, from the bodies' positions, way apart in the frame, from the cores' to the shapes', times level:
+ * each moves toward the other by its radius, or, where the radii reach across, both move to one point between. */
+HOT two_points moved_points(const result *r, vec normal, vec x, vec y, vec way, real down, real level, const shape *a,
+                            const shape *b, int deep)
+{
+    const real radius = a->radius + b->radius;
+    two_points on = {moved(a->pose, x, down, level), moved(b->pose, y, down, level)};
+    if (!(radius > 0)) {
+        if (r->upper <= 0 && !deep) on.b = on.a;
+        return on;
+    }
+    real l = 0;
+    vec toward_b = normal;
+    if (deep < 2 && !(deep && r->upper <= 0)) {
+        l = length(way);
+        if (r->upper <= 0 || l * down < radius * level) {
+            const real share = a->radius > 0 ? a->radius / radius : 0;
+            on.a = on.b = add(on.a, mul(sub(on.b, on.a), share));
+            return on;
+        }
+        if (l > 0) toward_b = mul(way, -1 / l);
+    }
+    on.a = add(on.a, mul(toward_b, a->radius * level));
+    on.b = sub(on.b, mul(toward_b, b->radius * level));
+    return on;
+}
+
+/* Of sizes or in places that are not plain. */
+static APART void move_wild_points(result *r, const difference *d, vec normal, vec x, vec y, vec way, real far,
+                                   const shape *a, const shape *b, int deep)
+{
+    const real level = level_of(d, a->radius + b->radius, far);
+    const two_points on = moved_points(r, normal, x, y, way, level * d->unscale, level, a, b, deep);
+    store(r->point_a, in_range(mul(on.a, 1 / level)));
+    store(r->point_b, in_range(mul(on.b, 1 / level)));
+}
+
+/* To the result, in the world. */
 HOT void move_points(result *r, const difference *d, vec normal, vec x, vec y, vec way, const shape *a, const shape *b,
                      int deep)
 {
-    real radius = a->radius + b->radius, far = larger(far_out(a), far_out(b));
-    int plain = !d->wild && far < PLAIN && radius < PLAIN;
-    real level = plain ? 1 : level_of(d, radius, far), down = level * d->unscale, l = length(way);
-    vec on_a = moved(a->pose, x, down, level), on_b = moved(b->pose, y, down, level);
-    if (deep > 1 || (deep && r->upper <= 0)) {
-        on_a = add(on_a, mul(normal, a->radius * level));
-        on_b = sub(on_b, mul(normal, b->radius * level));
-    } else if (r->upper <= 0 || l * down < radius * level) {
-        real share = a->radius > 0 ? a->radius / radius : 0;
-        on_a = on_b = add(on_a, mul(sub(on_b, on_a), share));
-    } else if (radius > 0) {
-        vec toward_b = l > 0 ? mul(way, -1 / l) : normal;
-        on_a = add(on_a, mul(toward_b, a->radius * level));
-        on_b = sub(on_b, mul(toward_b, b->radius * level));
+    const real far = larger(far_out(a), far_out(b));
+    if (d->wild || !(far < PLAIN) || !(a->radius + b->radius < PLAIN)) {
+        move_wild_points(r, d, normal, x, y, way, far, a, b, deep);
+        return;
     }
-    store(r->point_a, plain ? on_a : in_range(mul(on_a, 1 / level)));
-    store(r->point_b, plain ? on_b : in_range(mul(on_b, 1 / level)));
+    const two_points on = moved_points(r, normal, x, y, way, d->unscale, 1, a, b, deep);
+    store(r->point_a, on.a);
+    store(r->point_b, on.b);
 }
 
 /* The same of the bodies' own points, times their grain. */

@@ -16,7 +16,7 @@
 #include "planar.h"
 #include "solid.h"
 #include "stride.h"
-#include "thin.h"
+#include "thin_door.h"
 #include "widen.h"
 
 #define OPTIONS_LARGEST 1024 /* beyond any size this struct will grow to; a larger one was never set */
@@ -38,7 +38,7 @@ static APART int read_aged_options(options *o, const options *given)
 
 static inline uint32_t steps_of(const options *o)
 {
-    if (o->max_steps == 0) return 256;
+    if (!o || o->max_steps == 0) return 256;
     return o->max_steps < INT32_MAX / 4 ? o->max_steps : INT32_MAX / 4;
 }
 
@@ -557,7 +557,8 @@ static inline int tell_extent(search *q, const shape *a, const shape *b, const o
 {
     if (g->deep && (tell_level(q, a, b, g, r) || (ask_centres(q) && tell_boxes(q, a, b, g, r)))) return 1;
     if (!tell_gap(q, a, b, g, r)) return 0;
-    if (o->cache) remember(o->cache, q, a, b);
+    if (o->cache && q->pending) remember(o->cache, q, a, b);
+    else if (o->cache) o->cache->count = 0; /* a point of both took no corner */
     return 1;
 }
 
@@ -714,7 +715,7 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
     const options *o = check_options(&own, given);
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    if (q->glanced != IN_VAIN && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d) &&
+    if (q->glanced == UNTRIED && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d) &&
         !lender_of(a, b, o, 1))
         q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, out) : glance(q, a, b, out);
 #if DIM == 3
@@ -756,7 +757,9 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
 {
     search q;
     q.dug = -1;
-    q.glanced = are_plain_hulls(a, b, given, out) ? glance_at_hulls(&q, a, b, out) : UNTRIED;
+    q.glanced = UNTRIED;
+    if (are_plain_hulls(a, b, given, out)) q.glanced = glance_at_hulls(&q, a, b, out);
+    else if (are_plain_boxes(a, b, given, out)) q.glanced = glance_at_plain_boxes(&q, (int)steps_of(given), a, b, out);
     if (q.glanced == TELLING) return out->status = GJK_DECIDED;
     if (q.glanced == UNTRIED && tell_plainly(&q, a, b, given, 1, 0, out)) return out->status = GJK_DECIDED;
     return answer_intersect(&q, a, b, given, out);

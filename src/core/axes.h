@@ -18,7 +18,8 @@ typedef struct gauge {
     real off;         /* all off 1 by no more */
     vec e, f;         /* the halves of a and of b */
     vec unit[2];      /* 1 along an axis, in a box's own coordinates times their grain */
-    vec t, s;         /* the way from a's middle to b's: along a's axes, and along b's */
+    vec t, s;         /* the way from a's middle to b's: along a's axes, and along b's; */
+    real cc, first;   /* the square of it, and how high the first corner is along it, times its length */
     vec r[DIM];       /* r[i].c[j]: a's axis i along b's axis j */
     int brought;      /* the axes were not of length 1: unit is no power of two then */
     int framed;       /* in the frame; else in the caller's lengths, of turned boxes only */
@@ -75,6 +76,9 @@ static real level_of_axes(const body *k)
     return first > UNIT ? level * leveler(root(first) * (1 + LENGTH_OFF)) : level;
 }
 
+/* How high the first corner is, along the way from b to a, times the length of that, whose square is cc. */
+static inline real first_height(vec e, vec f, vec t, vec s, real cc) { return cc - (dot_size(e, t) + dot_size(f, s)); }
+
 /* 0: there is none to reckon by; of a box that is but a point, for one. */
 static APART int take_gauge_in_frame(gauge *k, const difference *d)
 {
@@ -90,6 +94,8 @@ static APART int take_gauge_in_frame(gauge *k, const difference *d)
          k->unit[0].c[i] = z.level[0]; k->unit[1].c[i] = z.level[1]);
     if (!take_off(k) && !(is_fair(&z, 0) && is_fair(&z, 1) && bring_to_length(k))) return 0;
     EACH(k->t.c[i] = dot(k->u[i], d->c); k->s.c[i] = -dot(k->u[DIM + i], mul(d->c, -1)));
+    k->cc = dot(d->c, d->c);
+    k->first = first_height(k->e, k->f, k->t, k->s, k->cc);
     return 1;
 }
 
@@ -104,9 +110,6 @@ static inline int take_gauge(gauge *k, const difference *d)
     EACH(k->unit[0].c[i] = k->unit[1].c[i] = 1);
     return take_off(k);
 }
-
-/* How high the first corner is, along the way from b to a, times the length of that, whose square is cc. */
-static inline real first_height(vec e, vec f, vec t, vec s, real cc) { return cc - (dot_size(e, t) + dot_size(f, s)); }
 
 static inline vec clamped(vec x, vec e)
 {
@@ -192,12 +195,64 @@ static int know_first(search *q, const gauge *k)
     return q->pending = 1;
 }
 
+/* By the first corner, along the way between the middles, how deep the overlap is at most. 0: it can't be asked for. */
+static inline int look_at_first(search *q, const gauge *k)
+{
+    const real whole = q->d.doubt / GLANCE_DOUBT, least = UNIT * UNIT * whole, l = root(k->cc);
+    if (l > least) {
+        q->lower = k->first / l - q->d.doubt;
+        EACH(q->normal.c[i] = 0 + q->d.c.c[i] / l);
+        return 1;
+    }
+    if (!q->pending && !know_first(q, k)) return 0; /* the middles are all but one: along another way */
+    raise(q, q->v, spare(&q->s)->w);
+    return 1;
+}
+
+/* There is a point of both, and they reach into each other by deep at least. 0: the radii are too large for that to
+ * show. */
+static int tell_common(search *q, const gauge *k, vec at, int of_a, real deep, const shape *a, const shape *b,
+                       result *r)
+{
+    const difference *d = &q->d;
+    result told;
+    if (!look_at_first(q, k)) return 0;
+    bracket(&told, d, q->lower, -deep, a, b);
+    if (!(deep > 0)) told.upper = smaller(told.upper, 0); /* also where it was rounded on the way out */
+    else if (!(told.upper < 0)) return 0;
+    told.value = told.upper;
+    if (of_a) place_common(&told, d, a, at);
+    else place_common(&told, d, b, at);
+    store(told.normal, q->normal);
+    told.steps = q->steps + 1;
+    told.supports = d->calls;
+    told.reserved = 0;
+    *r = told;
+    return 1;
+}
+
+/* The point of a, or of b, nearest to the other's middle may be one of both, with room around it in the other. It is
+ * looked at along that one's axes, which it may be off by their skew. */
+static inline int try_middle(search *q, const gauge *k, int of_a, const shape *a, const shape *b, result *r)
+{
+    const difference *d = &q->d;
+    const int own = of_a ? 0 : DIM, other = DIM - own;
+    const vec x = of_a ? clamped(k->t, k->e) : clamped(mul(k->s, -1), k->f);
+    vec at = mul(axis_of(k, own), x.c[0]), u[DIM], y;
+    REST(at = add(at, mul(axis_of(k, own + i), x.c[i])));
+    const vec from_other = of_a ? sub(at, d->c) : add(at, d->c);
+    EACH(u[i] = axis_of(k, other + i); y.c[i] = dot(u[i], from_other));
+    const real room = room_at(y, of_a ? k->f : k->e);
+    if (!(room > 0)) return 0;
+    const real skew = skew_among(u, k->off), deep = room * (1 - skew) - (1 + skew * (2 / GLANCE_DOUBT)) * d->doubt;
+    return deep > 0 && tell_common(q, k, at, of_a, deep, a, b, r);
+}
+
 /* The points x of a and y of b, lengths along their axes, are as good as one: that proves the boxes to meet if there is
  * room around it in one of them, or if nothing was rounded. 0: neither is certain. */
 static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, int in_b, const shape *a,
                             const shape *b, result *r)
 {
-    result told;
     const difference *d = &q->d;
     EACH(x.c[i] *= k->unit[0].c[i]; y.c[i] *= k->unit[1].c[i]);
     const vec at_a = mapped(&d->a, x), at_b = mapped(&d->b, y), w = sub(at_a, add(at_b, d->c));
@@ -205,20 +260,8 @@ static APART int tell_point(search *q, const gauge *k, vec x, vec y, real room, 
     EACH(u[i] = axis_of(k, DIM * in_b + i));
     const real deep = room > 0 ? room * (1 - skew_among(u, k->off)) - spread(w) - d->doubt : 0;
     const int one = !(deep > 0) && same(w, axis(0, 0)) && is_one_point(q, k->framed, x, y, a, b);
-    if ((!(deep > 0) && !one) || (!q->pending && !know_first(q, k))) return 0;
-    raise(q, q->v, spare(&q->s)->w);
-    bracket(&told, d, q->lower, one ? 0 : -deep, a, b);
-    if (one) told.upper = smaller(told.upper, 0); /* also where it was rounded on the way out */
-    else if (!(told.upper < 0)) return 0;
-    told.value = told.upper;
-    if (in_b) place_common(&told, d, a, at_a);
-    else place_common(&told, d, b, at_b);
-    store(told.normal, q->normal);
-    told.steps = q->steps + 1;
-    told.supports = d->calls;
-    told.reserved = 0;
-    *r = told;
-    return 1;
+    if (!(deep > 0) && !one) return 0;
+    return tell_common(q, k, in_b ? at_a : at_b, in_b, one ? 0 : deep, a, b, r);
 }
 
 /* The point of a may be one of b, too, or the other way round. */
@@ -397,9 +440,14 @@ static APART int tell_inside(search *q, const gauge *k, const real h[AXES], vec 
                        : try_of_a(q, k, foremost_of_a(k, least - DIM), a, b, r);
 }
 
+/* That the first corner lies so far beyond the other middle, as a share of the way between them, is a sign of overlap.
+ */
+#define FAR_BEYOND ((real)1 / 3)
+
 /* Whether they meet, of two boxes whose first corner shows nothing. */
 HOT int tell_by_axes(search *q, gauge *k, int max_steps, const shape *a, const shape *b, result *r)
 {
+    if (k->first < -FAR_BEYOND * k->cc && (try_middle(q, k, 1, a, b, r) || try_middle(q, k, 0, a, b, r))) return 1;
     real h[AXES];
     const real apart = apart_by(q, a, b);
     vec way;
@@ -440,7 +488,9 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
     vertex *p = &q->s.slot[0];
     start_glance(q, v);
     if (!are_plain(cc, a, b) || !doubt_by_squares(d, cc, k.uu)) return UNCLEAR;
-    if (!(first_height(load(of_a->half), load(of_b->half), t, s, cc) > 0)) {
+    k.first = first_height(load(of_a->half), load(of_b->half), t, s, cc);
+    k.cc = cc;
+    if (!(k.first > 0)) {
         k.t = t;
         k.s = mul(s, -1);
         return glance_along_axes(q, &k, max_steps, a, b, r);
@@ -455,8 +505,7 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
 static APART int tell_by_axes_in_frame(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
     gauge k;
-    const vec c = q->d.c;
-    if (!take_gauge_in_frame(&k, &q->d) || first_height(k.e, k.f, k.t, k.s, dot(c, c)) > 0) return 0;
+    if (!take_gauge_in_frame(&k, &q->d) || k.first > 0) return 0;
     return tell_by_axes(q, &k, max_steps, a, b, r);
 }
 
@@ -470,6 +519,30 @@ static APART int look_in_frame(search *q, int max_steps, const shape *a, const s
     q->d.doubt = doubt;
     return told;
 }
+
+/* ---- the door ---- */
+
+#if DIM == 3
+/* Two boxes, and nothing is asked that their axes do not tell. */
+HOT int are_plain_boxes(const shape *a, const shape *b, const options *o, const result *r)
+{
+    return a && b && r && are_boxes(a, b) && asks_nothing_else(o);
+}
+
+/* Before anything is set up for what else may be asked, of bodies or about them. UNTRIED: they are no boxes. */
+static APART enum glanced glance_at_plain_boxes(search *q, int max_steps, const shape *a, const shape *b, result *r)
+{
+    take_pose(&q->d.a, a);
+    take_pose(&q->d.b, b);
+    if (!take_box(&q->d.a, a->data) || !take_box(&q->d.b, b->data)) return UNTRIED;
+    q->listed = 1;
+    q->thin = q->planar = q->flat = UNTRIED;
+    return glance_at_boxes(q, max_steps, a, b, r);
+}
+#else
+#define are_plain_boxes(a, b, o, r) 0
+#define glance_at_plain_boxes(q, max_steps, a, b, r) UNTRIED
+#endif
 
 /* The walk takes up the last query's simplex after all. 0: something is wrong. */
 static APART int reopen_after_axes(search *q, const shape *a, const shape *b, const cache *k)

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Float only, where it stands beside its sister: vectors of the plane in double. The product of two floats has all its
- * digits there, and no size of a float under- or overflows, be it squared twice: so nothing needs a frame. */
+/* Float only, where it stands beside its sister: pairs of numbers in double, which are vectors in the plane. The
+ * product of two floats has all its digits there, and no size of a float under- or overflows, be it squared twice: so
+ * nothing needs a frame. */
 #ifndef GJK_CORE_DOUBLE_H
 #define GJK_CORE_DOUBLE_H
 
 #include "lanes.h"
 #include "widen.h"
 
-#if DIM == 2 && HAS_SISTER
+#if HAS_SISTER
 
 /* ---- two numbers ---- */
 

@@ -319,13 +319,6 @@ static real size_at(const search *q)
     return smaller(far / 2, 1);
 }
 
-/* A bound in the caller's unit; a subnormal one is rounded. */
-static real rescaled(real bound, real unscale, real way_out)
-{
-    real r = bound * unscale;
-    return size(r) < REAL_MIN ? r + way_out * 2 * TINY : r;
-}
-
 /* What is left to do where a look does not tell enough. */
 typedef struct glimpse {
     unsigned amid; /* the corners that are in the simplex for certain */

@@ -8,6 +8,7 @@
 #define GJK_CORE_FLAT_H
 
 #include "flat_depth.h"
+#include "wide_sticks.h"
 
 #if DIM == 2
 #if HAS_SISTER
@@ -400,6 +401,10 @@ HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, res
     dfront k;
     real run_a[RUN * DIM], run_b[RUN * DIM];
     if (a->support == pub(support_box) && b->support == pub(support_box)) return 0; /* told by their axes */
+    if (tell_wide_sticks(a, b, g, r)) {
+        if (own) own->count = 0; /* there is nothing that a formula would start from */
+        return 1;
+    }
     if (!set_flat(&f, run_a, run_b, a, b)) return 0;
     k.n = k.steps = k.around = 0;
     if (own && lends(own, a, b)) recall_flat(&f, &k, own);

@@ -22,9 +22,7 @@ HOT int take_hull(body *k, const shape *s)
     const points *p = s->data;
     if (!p || !p->v || p->count < EIGHT || !(p->stride == 0 || p->stride == DIM * sizeof(real)) || !(p->reach > TINY))
         return 0;
-    k->data = p;
-    k->posed = s->pose != NULL;
-    if (k->posed) k->m = s->pose->m;
+    take_pose(k, s);
     k->asked = AS_LIST;
     k->list = (list){p->v, p->count, DIM, p->reach, index_of_cloud(p)};
     know_reach(k, p->reach);

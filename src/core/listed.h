@@ -7,25 +7,35 @@
 
 #include "answer.h"
 
+/* 0: it is no box. */
+HOT int take_box(body *k, const box *b)
+{
+    if (!b) return 0;
+    EACH(if (!(b->half[i] >= 0)) return 0);
+    k->asked = AS_BOX;
+    return 1;
+}
+
+HOT void take_pose(body *k, const shape *s)
+{
+    k->data = s->data;
+    k->posed = s->pose != NULL;
+    if (k->posed) k->m = s->pose->m;
+}
+
 /* The body's corners, without a call; of a cloud with their reach. 0: it has none that can be listed, or not that
  * reach, or the data describe no set. */
 static inline int list_corners(body *k, const shape *s)
 {
     static const real nothing[DIM] = {0};
-    k->data = s->data;
-    k->posed = s->pose != NULL;
-    if (k->posed) k->m = s->pose->m;
+    take_pose(k, s);
     k->asked = AS_LIST;
     if (s->support == pub(support_points)) {
         const points *p = s->data;
         if (!p || !cloud(p) || !(p->reach > TINY)) return 0;
         k->list = list_of_cloud(p);
     } else if (s->support == pub(support_box)) {
-        const box *b = s->data;
-        if (!b) return 0;
-        EACH(if (!(b->half[i] >= 0)) return 0);
-        k->asked = AS_BOX;
-        return 1;
+        return take_box(k, s->data);
     } else if (s->support == pub(support_segment)) {
         const segment *e = s->data;
         if (!e) return 0;

@@ -78,15 +78,15 @@ typedef struct sticks {
 
 HOT const real *last_of_list(const list *l) { return l->v + (l->count - 1) * l->step; }
 
-HOT void place_sticks(const difference *d, sticks *s)
+/* finely: so that rounding takes from the ways no more than is a share of these. */
+HOT void place_sticks(const difference *d, duo grain, int finely, sticks *s)
 {
-    const duo grain = duo_of(d->a.grain, d->b.grain);
     s->m = duo_map_at(map_of(&d->a), map_of(&d->b));
     s->end[0] = duos_mul(duos_at(d->a.list.v, d->b.list.v), grain);
     s->end[1] = duos_mul(duos_at(last_of_list(&d->a.list), last_of_list(&d->b.list)), grain);
     s->at[0] = duos_mapped(&s->m, s->end[0]);
     s->at[1] = duos_mapped(&s->m, s->end[1]);
-    s->way = duos_mapped(&s->m, duos_sub(s->end[1], s->end[0]));
+    s->way = finely ? duos_mapped(&s->m, duos_sub(s->end[1], s->end[0])) : duos_sub(s->at[1], s->at[0]);
     s->ll = duos_dot(s->way, s->way);
     s->per = duo_where_larger(s->ll, duo_both(0), duo_div(duo_both(1), s->ll), duo_both(0));
 }
@@ -118,15 +118,14 @@ HOT duo nearest_shares(const sticks *k, vec c)
     return duo_of(s, t);
 }
 
-/* The points at such shares of the way, from the end that is nearer; exactly: in their own coordinates, too. */
-HOT void place_spots(const difference *d, const sticks *k, duo share, int exactly, spots *p)
+/* The points at such shares of the way, from the end that is nearer. */
+HOT void place_spots(const difference *d, const sticks *k, duo share, spots *p)
 {
     const duo half = duo_both((real)0.5), rest = duo_sub(duo_both(1), share);
     const duo part = duo_where_larger(share, half, rest, share);
     const duo back = duo_where_larger(share, half, duo_sub(duo_both(0), rest), share);
     p->at = duos_add(duos_where_larger(share, half, k->at[1], k->at[0]), duos_mul(k->way, back));
     p->w = corner_at_spots(d, p->at);
-    if (!exactly) return;
     const duos from = duos_where_larger(share, half, k->end[1], k->end[0]);
     const duos to = duos_where_larger(share, half, k->end[0], k->end[1]), way = duos_mul(duos_sub(to, from), part);
     p->x = duos_add(from, way);
@@ -191,27 +190,23 @@ static APART sight_of_two shifted(const difference *d, sticks own, duo share, du
     return e;
 }
 
-/* What only tells whether they meet needs no more digits. */
-HOT void sight_sticks(const difference *d, const goal *g, const sticks *k, sight_of_two *e)
+HOT void sight_sticks(const difference *d, const sticks *k, sight_of_two *e)
 {
-    const int exactly = !g->sign_only;
-    const duo share = nearest_shares(k, d->c);
-    duo edge = duo_both(0);
+    const duo share = nearest_shares(k, d->c), edge = edges_of(k);
     spots p;
-    place_spots(d, k, share, exactly, &p);
+    place_spots(d, k, share, &p);
     e->inside = 0;
     e->a = vec_of_a(p.at);
     e->b = vec_of_b(p.at);
     e->w = p.w;
-    e->low = exactly ? lost_of_spots(d, &k->m, &p) : axis(0, 0);
-    e->v = exactly ? add(e->w, e->low) : e->w;
+    e->low = lost_of_spots(d, &k->m, &p);
+    e->v = add(e->w, e->low);
     e->l = are_of_length(k, d) ? length(e->v) : 0;
-    if (exactly) edge = edges_of(k);
     look_along_sticks(k, share, edge, e);
     const real edges = of_a(edge) + of_b(edge);
     e->most = LIES_OF_STICK * edges;
     e->off = UNIT * edges * (real)1.125;
-    if (exactly && !(e->lies <= e->most)) *e = shifted(d, *k, share, edge, *e);
+    if (!(e->lies <= e->most)) *e = shifted(d, *k, share, edge, *e);
 }
 
 /* ---- a point and a box ---- */
@@ -281,13 +276,13 @@ static real sure_room(vista *k, int told, real out, real doubt)
     return skew < 256 * UNIT && out < least ? out : 0;
 }
 
-/* By how much a corner of the box may lie below the foot along v, where the axes rise so much along it; exactly: for
- * certain, none being longer than that. */
-static inline real fall_of_box(vec rise, real longest, int exactly, vec half, vec foot)
+/* By how much a corner of the box may lie below the foot along v, where the axes, none longer than that, rise so much
+ * along it; 0: by how much it seems to. */
+static inline real fall_of_box(vec rise, real longest, vec half, vec foot)
 {
     real fall = 0;
     for (int i = 0; i < DIM; i++) {
-        const real err = exactly ? UNIT * 4 * (longest + size(rise.c[i])) : 0; /* the product alone, and as above */
+        const real err = longest > 0 ? UNIT * 4 * (longest + size(rise.c[i])) : 0; /* the product, and as above */
         fall += fall_along(-rise.c[i], err, half.c[i] + foot.c[i], half.c[i] - foot.c[i]);
     }
     return fall;
@@ -313,14 +308,14 @@ static inline void sight_box(const difference *d, const goal *g, real level, sig
     e->b = vec_of_b(pair.at);
     e->inside = k.out >= 0;
     e->w = pair.w;
-    e->low = g->sign_only ? axis(0, 0) : lost_of_spots(d, &maps, &pair);
+    e->low = lost_of_spots(d, &maps, &pair);
     e->v = add(e->w, e->low);
     e->l = length(e->v);
     if (e->inside) sight_way_out(&k, toward, e);
     const vec rise = mul(k.box->posed ? pull(k.box->m, e->v) : e->v, toward / e->l);
-    const real longest = g->sign_only ? 0 : root(peak(k.uu)) / level;
-    e->fall = fall_of_box(rise, longest, !g->sign_only, k.half, foot);
-    e->lies = fall_of_box(rise, longest, 0, k.half, foot);
+    const real longest = root(peak(k.uu)) / level;
+    e->fall = fall_of_box(rise, longest, k.half, foot);
+    e->lies = fall_of_box(rise, 0, k.half, foot);
     e->most = LIES * (2 * longest * spread(k.half));
     e->off = 0;
     if (!e->inside) return;
@@ -352,23 +347,22 @@ static inline int bound_finely(const difference *d, const sight_of_two *e, twin 
     return !g->deep || *lower > g->radius || *upper - *lower <= BROAD * (broad + g->radius);
 }
 
-/* The same where it is only asked whether they meet: all of the doubt is charged. 0: the way between is noise. */
-static inline int bound_roughly(const difference *d, const sight_of_two *e, real *lower, real *upper)
+/* The same of a point in a box where it is not asked how deep that is: all of the doubt is charged. */
+static inline int bound_inside(const difference *d, const sight_of_two *e, real *lower, real *upper)
 {
-    *lower = (e->inside ? e->height.high : e->l) - e->fall - d->doubt;
-    *upper = e->inside ? -e->deep : e->l * (1 + 8 * UNIT) + d->doubt;
-    return e->inside ? e->deep > 0 : e->l > d->doubt * (UNIT / GLANCE_DOUBT / 1024);
+    *lower = e->height.high - e->fall - d->doubt;
+    *upper = -e->deep;
+    return e->deep > 0;
 }
 
 /* What the two points tell. 0: that is not whether the bodies meet, or not how far they are apart. */
 HOT int tell_sight(const difference *d, const sight_of_two *e, const shape *a, const shape *b, const goal *g, result *r)
 {
-    const int rough = g->sign_only || (e->inside && !g->deep);
     real lower, upper, value = 0;
     result told;
     if (!(e->l > 0)) return 0;
-    if (rough) {
-        if (!bound_roughly(d, e, &lower, &upper)) return 0;
+    if (e->inside && !g->deep) {
+        if (!bound_inside(d, e, &lower, &upper)) return 0;
     } else {
         const twin l = e->inside ? e->height : length_to_twice(e->w, length(e->w), e->low);
         if (!bound_finely(d, e, l, g, &lower, &upper)) return 0;
@@ -392,7 +386,7 @@ HOT int tell_sight(const difference *d, const sight_of_two *e, const shape *a, c
 HOT int tell_sticks(const difference *d, const sticks *k, const shape *a, const shape *b, const goal *g, result *r)
 {
     sight_of_two e;
-    sight_sticks(d, g, k, &e);
+    sight_sticks(d, k, &e);
     return tell_sight(d, &e, a, b, g, r);
 }
 
@@ -446,7 +440,7 @@ HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a,
 static APART enum glanced tell_sticks_outside(difference *d, const shape *a, const shape *b, const goal *g, result *r)
 {
     sticks k;
-    place_sticks(d, &k);
+    place_sticks(d, duo_both(1), 1, &k);
     const duo set = duo_larger(duos_dot(k.end[0], k.end[0]), duos_dot(k.end[1], k.end[1]));
     const duo squares = square_of_duo_map(&k.m);
     const real map_a = d->a.posed ? of_a(squares) : 1, map_b = d->b.posed ? of_b(squares) : 1;
@@ -454,10 +448,8 @@ static APART enum glanced tell_sticks_outside(difference *d, const shape *a, con
     d->doubt = GLANCE_DOUBT * root(square);
     if (!is_of_plain_size(&d->a, map_a, of_a(set)) || !is_of_plain_size(&d->b, map_b, of_b(set))) return UNCLEAR;
     if (!are_of_plain_size(square, a, b)) return UNCLEAR;
-    if (!g->sign_only) {
-        know_norms(d, root(map_a), root(map_b));
-        d->c_low = offset_low(a->pose, b->pose);
-    }
+    know_norms(d, root(map_a), root(map_b));
+    d->c_low = offset_low(a->pose, b->pose);
     return tell_sticks(d, &k, a, b, g, r) ? TELLING : IN_VAIN;
 }
 
@@ -465,77 +457,10 @@ static APART enum glanced tell_box_outside(difference *d, const shape *a, const 
 {
     real map[2];
     if (!doubt_outside(d, a, b, square_of_thin(&d->a, 1), square_of_thin(&d->b, 1), GLANCE_DOUBT, map)) return UNCLEAR;
-    if (!g->sign_only) {
-        know_norms(d, root(map[0]), root(map[1]));
-        d->c_low = offset_low(a->pose, b->pose);
-    }
+    know_norms(d, root(map[0]), root(map[1]));
+    d->c_low = offset_low(a->pose, b->pose);
     const real level = leveler(root(map[d->b.asked == AS_BOX]));
     return tell_point_and_box(d, level, a, b, g, r) ? TELLING : IN_VAIN;
-}
-
-/* Without a frame. UNCLEAR: the sizes are none for that. */
-HOT enum glanced tell_thin(difference *d, const shape *a, const shape *b, const goal *g, result *r)
-{
-    stay_outside(d, a, b);
-    d->slack = 0;
-    return d->a.asked == AS_BOX || d->b.asked == AS_BOX ? tell_box_outside(d, a, b, g, r)
-                                                        : tell_sticks_outside(d, a, b, g, r);
-}
-
-/* In the frame, where the sizes were none to do without. */
-static APART int tell_thin_in_frame(difference *d, const shape *a, const shape *b, const goal *g, result *r)
-{
-    const difference before = *d;
-    const real level_a = level_of_map(&d->a), level_b = level_of_map(&d->b);
-    const real map_a = square_of_map(&d->a, squared_axes(&d->a, level_a));
-    const real map_b = square_of_map(&d->b, squared_axes(&d->b, level_b));
-    const real set_a = square_of_thin(&d->a, d->a.grain / level_a), set_b = square_of_thin(&d->b, d->b.grain / level_b);
-    const int of_a = d->a.asked == AS_BOX, boxed = of_a || d->b.asked == AS_BOX;
-    d->doubt = GLANCE_DOUBT * root(map_a * set_a + map_b * set_b + dot(d->c, d->c)) + (d->wild ? d->lost : 0);
-    know_norms(d, root(map_a) / level_a, root(map_b) / level_b);
-    know_offset(d, a, b);
-    sticks k;
-    if (!boxed) place_sticks(d, &k);
-    if (boxed ? tell_point_and_box(d, of_a ? level_a : level_b, a, b, g, r) : tell_sticks(d, &k, a, b, g, r)) return 1;
-    *d = before;
-    return 0;
-}
-
-/* ---- the door ---- */
-
-/* A point or a segment, or a box, by what the caller says it is. 0: none of these. */
-HOT int list_thin(body *k, const shape *s)
-{
-    static const real nothing[DIM] = {0};
-    k->data = s->data;
-    k->posed = s->pose != NULL;
-    if (k->posed) k->m = s->pose->m;
-    k->asked = s->support == pub(support_box) ? AS_BOX : AS_LIST;
-    if (s->support == pub(support_segment)) {
-        const segment *e = s->data;
-        if (!e) return 0;
-        k->list = (list){e->v[0], 2, DIM, 0, NULL};
-        return 1;
-    }
-    if (s->support == pub(support_origin)) {
-        k->list = (list){nothing, 1, DIM, 0, NULL};
-        return 1;
-    }
-    const box *e = s->data;
-    if (k->asked != AS_BOX || !e) return 0;
-    EACH(if (!(e->half[i] >= 0)) return 0);
-    return 1;
-}
-
-/* Of two thin bodies, before anything else is set up. UNTRIED: they are none. */
-HOT enum glanced tell_thin_at_once(const shape *a, const shape *b, cache *own, const goal *g, result *r)
-{
-    difference d;
-    if (are_boxes(a, b)) return UNTRIED;
-    if (!list_thin(&d.a, a) || !list_thin(&d.b, b) || !are_thin(&d)) return UNTRIED;
-    const enum glanced seen = tell_thin(&d, a, b, g, r);
-    if (seen == TELLING && own) own->count = 0; /* there is nothing that a formula would start from */
-    return seen;
 }
 
 #endif
