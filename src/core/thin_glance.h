@@ -80,7 +80,8 @@ HOT int tell_hint(const difference *d, const hint *e, real whole, int framed, co
     r->lower = told.lower;
     r->upper = told.upper;
     r->value = 0;
-    const vec normal = mul(e->v, -1 / e->l);
+    vec normal;
+    EACH(normal.c[i] = 0 - e->v.c[i] / e->l);
     store(r->normal, normal);
     move_points(r, d, normal, e->a, e->b, sub(e->a, add(e->b, d->c)), a, b, 0);
     r->steps = 1;
