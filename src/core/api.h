@@ -611,15 +611,20 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
                     result *r)
 {
     q->d.calls = 0;
+    q->told = 0;
     if (q->flat == UNTRIED && q->listed && !g->sign_only) {
         q->flat = tell_flat(a, b, o->cache, g, r) ? TELLING : IN_VAIN;
         q->told = q->flat == TELLING;
+    }
+    if (DIM == 3 && q->thin == UNTRIED && q->listed && tell_wide_sticks(a, b, g, r)) {
+        q->told = 1;
+        if (o->cache) o->cache->count = 0;
+    }
+    if (q->told) {
+        q->d.scale = leveler(larger(size(r->lower), size(r->upper))); /* what the status is found in */
+        q->d.unscale = 1 / q->d.scale;
         *end = STILL;
-        if (q->told) {
-            q->d.scale = leveler(larger(size(r->lower), size(r->upper))); /* what the status is found in */
-            q->d.unscale = 1 / q->d.scale;
-            return 0;
-        }
+        return 0;
     }
     if (q->thin == UNTRIED && q->listed && are_thin(&q->d)) q->thin = tell_thin(&q->d, a, b, g, r);
     q->told = q->thin == TELLING;
