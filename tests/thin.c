@@ -556,6 +556,30 @@ static void at_the_edge_of_numbers(void **state)
     }
 }
 
+/* Flat boxes of the least numbers that there are, under maps that stretch, and a point in them: they touch. */
+static void flat_and_least(void **state)
+{
+    (void)state;
+    for (at = 0; at < 64; at++) {
+        draws d = draws_from(17, 0, (uint64_t)at);
+        V(result) r;
+        start_body(&p.a, BOX);
+        start_body(&p.b, ORIGIN);
+        for (int i = 0; i < DIM; i++) {
+            p.a.half[i] = REAL_MIN * (real)ldexp(1, -(int)below(&d, sizeof(real) == 8 ? 50 : 20));
+            p.a.pose.m[(DIM + 1) * i] = 2 + (real)below(&d, 1000);
+        }
+        p.a.half[below(&d, DIM)] = 0;
+        bind_pair(&p);
+        p.a.shape.radius = at % 4 ? 0 : REAL_MIN;
+        assert_true(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+        assert_true(r.lower <= -p.a.shape.radius && -p.a.shape.radius <= r.upper && r.lower <= r.upper);
+        assert_true(V(intersect)(&p.b.shape, &p.a.shape, NULL, &r) >= 0);
+        assert_true(r.lower <= -p.a.shape.radius && -p.a.shape.radius <= r.upper && r.lower <= r.upper);
+        assert_true(V(distance)(&p.a.shape, &p.b.shape, NULL, &r) >= 0 && r.lower == 0);
+    }
+}
+
 /* Radii that are none are refused. */
 static void radii_that_are_none(void **state)
 {
@@ -673,6 +697,7 @@ int main(void)
         cmocka_unit_test(beyond_a_frame),
         cmocka_unit_test(radii_that_are_none),
         cmocka_unit_test(at_the_edge_of_numbers),
+        cmocka_unit_test(flat_and_least),
     };
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -46,7 +46,7 @@ static inline vec squared_axes(const body *k, real level)
 }
 
 /* Of the body's map, the sum of squares, whose root bounds all norms of it, with its signs or without; and the square
- * of the set's reach, its points times that grain. */
+ * of the set's reach, its points times grain, and then times by: in this order nothing overflows. */
 HOT real sum_of_all(vec x)
 {
     real sum = x.c[0];
@@ -56,19 +56,19 @@ HOT real sum_of_all(vec x)
 
 static inline real square_of_map(const body *k, vec uu) { return k->posed ? sum_of_all(uu) : 1; }
 
-HOT real square_of_list(const list *l, real grain)
+HOT real square_of_list(const list *l, real grain, real by)
 {
-    const real reach = l->reach * grain * (1 + 8 * UNIT);
+    const real reach = l->reach * grain * by * (1 + 8 * UNIT);
     return reach * reach;
 }
 
-static inline real square_of_reach(const body *k, real grain)
+static inline real square_of_reach(const body *k, real grain, real by)
 {
     if (k->asked == AS_BOX) {
-        vec half = mul(load(((const box *)k->data)->half), grain);
+        vec half = mul(mul(load(((const box *)k->data)->half), grain), by);
         return dot(half, half);
     }
-    return square_of_list(&k->list, grain);
+    return square_of_list(&k->list, grain, by);
 }
 
 /* The doubt, and what raise and spell charge besides, of bodies that reach A and B from their positions, c apart, is no
@@ -153,7 +153,7 @@ HOT int doubt_by_squares(difference *d, real cc, vec uu[2])
     uu[0] = squared_axes(&d->a, 1);
     uu[1] = squared_axes(&d->b, 1);
     const real map_a = square_of_map(&d->a, uu[0]), map_b = square_of_map(&d->b, uu[1]);
-    const real set_a = square_of_reach(&d->a, 1), set_b = square_of_reach(&d->b, 1);
+    const real set_a = square_of_reach(&d->a, 1, 1), set_b = square_of_reach(&d->b, 1, 1);
     const real square = map_a * set_a + map_b * set_b + cc;
     d->doubt = GLANCE_DOUBT * root(square);
     return are_squares_plain(map_a, map_b, set_a, set_b, square);
@@ -202,7 +202,7 @@ static inline enum glanced glance(search *q, const shape *a, const shape *b, res
 static real square_in_frame(const body *k)
 {
     const real level = k->posed ? leveler(k->norm) : 1;
-    return square_of_map(k, squared_axes(k, level)) * square_of_reach(k, k->grain / level);
+    return square_of_map(k, squared_axes(k, level)) * square_of_reach(k, k->grain, 1 / level);
 }
 
 /* The doubt as a glance has it, in the frame. */

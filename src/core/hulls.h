@@ -59,7 +59,7 @@ static APART enum glanced glance_at_hulls(search *q, const shape *a, const shape
     e.w = sub(e.a, add(e.b, c));
     e.height = dot(v, e.w);
     const real map_a = square_of_hull(&d->a), map_b = square_of_hull(&d->b);
-    const real set_a = square_of_list(&d->a.list, 1), set_b = square_of_list(&d->b.list, 1);
+    const real set_a = square_of_list(&d->a.list, 1, 1), set_b = square_of_list(&d->b.list, 1, 1);
     const real square = map_a * set_a + map_b * set_b + cc;
     if (!are_squares_plain(map_a, map_b, set_a, set_b, square)) return UNTRIED;
     const real doubt = GLANCE_DOUBT * root(square);

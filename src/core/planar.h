@@ -133,7 +133,8 @@ HOT int settle_outside(difference *d, const shape *a, const shape *b)
 {
     real map[2];
     stay_outside(d, a, b);
-    if (!doubt_outside(d, a, b, square_of_reach(&d->a, 1), square_of_reach(&d->b, 1), PLANAR_DOUBT, map)) return 0;
+    if (!doubt_outside(d, a, b, square_of_reach(&d->a, 1, 1), square_of_reach(&d->b, 1, 1), PLANAR_DOUBT, map))
+        return 0;
     d->a.norm = root(map[0]);
     d->b.norm = root(map[1]);
     return 1;
@@ -198,8 +199,8 @@ HOT int list_polygon(body *k, const shape *s)
 HOT int settle_polygons(difference *d, const shape *a, const shape *b)
 {
     stay_outside(d, a, b);
-    const real set_a = square_of_reach(&d->a, 1), map_a = square_of_map(&d->a, squared_axes(&d->a, 1));
-    const real set_b = square_of_reach(&d->b, 1), map_b = square_of_map(&d->b, squared_axes(&d->b, 1));
+    const real set_a = square_of_reach(&d->a, 1, 1), map_a = square_of_map(&d->a, squared_axes(&d->a, 1));
+    const real set_b = square_of_reach(&d->b, 1, 1), map_b = square_of_map(&d->b, squared_axes(&d->b, 1));
     const real square = map_a * set_a + map_b * set_b + dot(d->c, d->c);
     d->doubt = PLANAR_DOUBT * root(square);
     d->a.norm = root(map_a);

@@ -41,11 +41,11 @@ static inline vec first_end(const body *k) { return load(k->list.v); }
 
 static inline vec last_end(const body *k) { return nth_of(&k->list, k->list.count - 1); }
 
-/* The square of the set's reach, times that grain. */
-static inline real square_of_thin(const body *k, real grain)
+/* The square of the set's reach, times that grain and by, one after the other. */
+static inline real square_of_thin(const body *k, real grain, real by)
 {
-    if (k->asked == AS_BOX) return square_of_reach(k, grain);
-    const vec x = mul(first_end(k), grain), y = mul(last_end(k), grain);
+    if (k->asked == AS_BOX) return square_of_reach(k, grain, by);
+    const vec x = mul(mul(first_end(k), grain), by), y = mul(mul(last_end(k), grain), by);
     return larger(dot(x, x), dot(y, y));
 }
 
@@ -456,7 +456,8 @@ static APART enum glanced tell_sticks_outside(difference *d, const shape *a, con
 static APART enum glanced tell_box_outside(difference *d, const shape *a, const shape *b, const goal *g, result *r)
 {
     real map[2];
-    if (!doubt_outside(d, a, b, square_of_thin(&d->a, 1), square_of_thin(&d->b, 1), GLANCE_DOUBT, map)) return UNCLEAR;
+    if (!doubt_outside(d, a, b, square_of_thin(&d->a, 1, 1), square_of_thin(&d->b, 1, 1), GLANCE_DOUBT, map))
+        return UNCLEAR;
     know_norms(d, root(map[0]), root(map[1]));
     d->c_low = offset_low(a->pose, b->pose);
     const real level = leveler(root(map[d->b.asked == AS_BOX]));

@@ -29,7 +29,8 @@ static APART int tell_thin_in_frame(difference *d, const shape *a, const shape *
     const real level_a = level_of_map(&d->a), level_b = level_of_map(&d->b);
     const vec uu_a = squared_axes(&d->a, level_a), uu_b = squared_axes(&d->b, level_b);
     const real map_a = square_of_map(&d->a, uu_a), map_b = square_of_map(&d->b, uu_b);
-    const real set_a = square_of_thin(&d->a, d->a.grain / level_a), set_b = square_of_thin(&d->b, d->b.grain / level_b);
+    const real set_a = square_of_thin(&d->a, d->a.grain, 1 / level_a);
+    const real set_b = square_of_thin(&d->b, d->b.grain, 1 / level_b);
     const real whole = root(map_a * set_a + map_b * set_b + dot(d->c, d->c)), level = of_a ? level_a : level_b;
     if (g->sign_only && glance_at_thin_in_frame(d, whole, level, of_a ? uu_a : uu_b, a, b, r)) return 1;
     d->doubt = GLANCE_DOUBT * whole + (d->wild ? d->lost : 0);

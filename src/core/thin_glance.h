@@ -74,7 +74,7 @@ HOT int tell_hint(const difference *d, const hint *e, real whole, int framed, co
     result told;
     told.lower = (e->height / e->l - doubt) - radius;
     told.upper = (e->far + doubt) - radius;
-    if (!(e->l > e->least) || !(radius < PLAIN * PLAIN)) return 0;
+    if (!(e->l > e->least) || !(radius < PLAIN * PLAIN) || !(told.lower <= told.upper)) return 0;
     if (framed) bring_out(&told, told.lower, told.upper, d->unscale);
     if (!(told.lower > 0) && !(told.upper < 0)) return 0;
     r->lower = told.lower;
