@@ -437,18 +437,28 @@ HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a,
            are_of_plain_size(square, a, b);
 }
 
+/* The square whose root doubts are made of, without a frame, and those of the maps and of the sets. */
+HOT real square_of_sticks(const difference *d, const sticks *k, real map[2], real set[2])
+{
+    const duo sets = duo_larger(duos_dot(k->end[0], k->end[0]), duos_dot(k->end[1], k->end[1]));
+    const duo maps = square_of_duo_map(&k->m);
+    map[0] = d->a.posed ? of_a(maps) : 1;
+    map[1] = d->b.posed ? of_b(maps) : 1;
+    set[0] = of_a(sets);
+    set[1] = of_b(sets);
+    return map[0] * set[0] + map[1] * set[1] + dot(d->c, d->c);
+}
+
 static APART enum glanced tell_sticks_outside(difference *d, const shape *a, const shape *b, const goal *g, result *r)
 {
     sticks k;
     place_sticks(d, duo_both(1), 1, &k);
-    const duo set = duo_larger(duos_dot(k.end[0], k.end[0]), duos_dot(k.end[1], k.end[1]));
-    const duo squares = square_of_duo_map(&k.m);
-    const real map_a = d->a.posed ? of_a(squares) : 1, map_b = d->b.posed ? of_b(squares) : 1;
-    const real square = map_a * of_a(set) + map_b * of_b(set) + dot(d->c, d->c);
+    real map[2], set[2];
+    const real square = square_of_sticks(d, &k, map, set);
     d->doubt = GLANCE_DOUBT * root(square);
-    if (!is_of_plain_size(&d->a, map_a, of_a(set)) || !is_of_plain_size(&d->b, map_b, of_b(set))) return UNCLEAR;
+    if (!is_of_plain_size(&d->a, map[0], set[0]) || !is_of_plain_size(&d->b, map[1], set[1])) return UNCLEAR;
     if (!are_of_plain_size(square, a, b)) return UNCLEAR;
-    know_norms(d, root(map_a), root(map_b));
+    know_norms(d, root(map[0]), root(map[1]));
     d->c_low = offset_low(a->pose, b->pose);
     return tell_sticks(d, &k, a, b, g, r) ? TELLING : IN_VAIN;
 }

@@ -112,11 +112,9 @@ static APART enum glanced glance_at_sticks(difference *d, const shape *a, const 
 {
     sticks k;
     place_sticks(d, duo_both(1), 0, &k);
-    const duo set = duo_larger(duos_dot(k.end[0], k.end[0]), duos_dot(k.end[1], k.end[1]));
-    const duo map = square_of_duo_map(&k.m);
-    const real map_a = d->a.posed ? of_a(map) : 1, map_b = d->b.posed ? of_b(map) : 1;
-    const real square = map_a * of_a(set) + map_b * of_b(set) + dot(d->c, d->c);
-    if (!are_for_hint(larger(map_a, map_b), larger(of_a(set), of_b(set)), square, a, b)) return UNCLEAR;
+    real map[2], set[2];
+    const real square = square_of_sticks(d, &k, map, set);
+    if (!are_for_hint(larger(map[0], map[1]), larger(set[0], set[1]), square, a, b)) return UNCLEAR;
     const real whole = root(square);
     const hint e = hint_of_sticks(&k, d->c, whole);
     return tell_hint(d, &e, whole, 0, a, b, r) ? TELLING : IN_VAIN;
