@@ -161,6 +161,15 @@ HOT void keep_apart(couplet *k, const evidence *e, vec v, real unscale)
     k->on_b = e->b;
 }
 
+/* The corner along v, which lies above 0, shows them to be apart. */
+HOT int solids_apart(couplet *k)
+{
+    weigh_evidence(&k->e, k->v, k->doubt);
+    if (!(k->e.lower > 0)) return 0;
+    keep_apart(k, &k->e, k->v, 1);
+    return 1;
+}
+
 /* ---- a point of both ---- */
 
 /* How many times as large the solid is that x is on the surface of. Where a box is flat and x in its plane, 0 / 0 is
@@ -354,27 +363,24 @@ static void look_along_way(couplet *k, vec way, vec *x, vec *y)
     k->calls += 2;
 }
 
-/* It shows them to be apart; or that point, from a's middle, is in both. 0: neither. */
-static int tell_there(couplet *k, vec middle)
+/* Whether that point, from a's middle, is in both; and of how many times as large solids it is on the surface. */
+static int meet_there(couplet *k, vec at, real times[2])
 {
-    if (k->e.height > 0) {
-        weigh_evidence(&k->e, k->v, k->doubt);
-        if (!(k->e.lower > 0)) return 0;
-        keep_apart(k, &k->e, k->v, 1);
-        return 1;
-    }
-    const vec x = mul(seen_by_solid(&k->a, middle), k->per[0]);
-    const vec y = mul(seen_by_solid(&k->b, sub(middle, k->c)), k->per[1]);
-    return meet_at(k, x, y, left_of(gauge_of(&k->a, x)), left_of(gauge_of(&k->b, y)));
+    const vec x = mul(seen_by_solid(&k->a, at), k->per[0]);
+    const vec y = mul(seen_by_solid(&k->b, sub(at, k->c)), k->per[1]);
+    times[0] = gauge_of(&k->a, x);
+    times[1] = gauge_of(&k->b, y);
+    return meet_at(k, x, y, left_of(times[0]), left_of(times[1]));
 }
 
 /* Two ellipsoids that the first corner leaves open. 0: they still are. */
 static APART int tell_ellipsoids(couplet *k)
 {
     vec way, middle, x, y;
+    real times[2];
     if (!turn_to_gap(k, &way, &middle)) return 0;
     look_along_way(k, way, &x, &y);
-    return tell_there(k, middle);
+    return k->e.height > 0 ? solids_apart(k) : meet_there(k, middle, times);
 }
 
 /* What the solid adds to the heights of the difference. */
@@ -401,20 +407,44 @@ static int know_heights(bulk *of, const couplet *k, real level)
     return add_solid(of, &k->a, &a, 0) && add_solid(of, &k->b, &b, 1);
 }
 
-/* Whether the corner there shows them to be apart, or the point in the middle of both bodies', as it counts edges, is
- * in both. */
+/* They overlap along n, a's point on_a and b's on_b being farthest: whether a point half as deep in each is in both.
+ * That between these, as a rule; but of a sharp edge it may be beside the solid, and the way to the middle is not; then
+ * one between both. */
+static int meet_between(couplet *k, vec n, vec on_a, vec on_b)
+{
+    const real half = (real)-0.5 * k->e.height;
+    const vec from_b = sub(on_b, k->c), between = mul(add(on_a, on_b), (real)0.5);
+    const vec in_a = mul(on_a, 1 - half / dot(n, on_a)), in_b = add(k->c, mul(from_b, 1 + half / dot(n, from_b)));
+    real times[2], others[2];
+    if (meet_there(k, between, times)) return 1;
+    const vec inner = times[0] < 1 ? in_b : times[1] < 1 ? in_a : mul(add(in_a, in_b), (real)0.5);
+    if (meet_there(k, inner, others)) return 1;
+    const real off = times[0] - times[1], other_off = others[0] - others[1], share = off / (off - other_off);
+    return share > 0 && share < 1 && meet_there(k, add(between, mul(sub(inner, between), share)), times);
+}
+
+/* Whether the corner there shows them to be apart; or a point that is as deep in one as in the other is in both. */
 static int tell_in_dip(couplet *k, const bulk *of, const bent *at)
 {
     vertex p;
     look_along_way(k, mul(at->n, -1), &p.x, &p.y);
-    share_out(of, at, &p);
-    const vec middle = add(put_in_place(&k->a, p.x), add(put_in_place(&k->b, p.y), k->c));
-    return tell_there(k, mul(middle, (real)0.5));
+    if (k->e.height > 0) return solids_apart(k);
+    share_out(of, at, &p); /* edges as they count */
+    return meet_between(k, at->n, put_in_place(&k->a, p.x), add(put_in_place(&k->b, p.y), k->c));
+}
+
+/* Where the heights' dip is sought from: the line of centres, with most of what leads along the first corner taken off.
+ */
+static vec way_to_dip(const couplet *k, real level)
+{
+    const vec c = mul(k->c, level), w = mul(k->e.w, level);
+    const vec n = sub(mul(c, dot(w, w)), mul(w, (real)0.875 * dot(c, w)));
+    return mul(n, 1 / length(n));
 }
 
 /* The same of any two, on the way to a dip of the heights: as soon as they are below the doubt there, or seem to stay
- * above it. */
-static APART int tell_by_dip(couplet *k)
+ * above it; by so many corners in all. */
+static APART int tell_by_dip(couplet *k, int most)
 {
     bulk of;
     rolling s;
@@ -422,14 +452,14 @@ static APART int tell_by_dip(couplet *k)
     real t[ACROSS];
     const real level = leveler(k->doubt * (1 / GLANCE_DOUBT)), doubt = 2 * k->doubt * level;
     if (!know_heights(&of, k, level)) return 0;
-    start_rolling(&s, &of, mul(k->c, 1 / length(k->c)));
-    for (int i = 0; i < ROLLS; i++) {
+    start_rolling(&s, &of, way_to_dip(k, level));
+    for (int i = 0; i < ROLLS && k->steps < most; i++) {
         bend(&s, &at);
         if (at.height + at.height_off < -doubt) return tell_in_dip(k, &of, &at);
         aim(&s, &at, t);
-        if (-4 * change_along(&at, t) < at.height) return tell_in_dip(k, &of, &at);
+        if (-4 * change_along(&at, t) < at.height && tell_in_dip(k, &of, &at)) return 1;
         const enum rolled to = roll_by(&s, &at, t);
-        if (to != ROLLS_ON) return to == RESTS && come_to_rest(&s, &at) && tell_in_dip(k, &of, &at);
+        if (to != ROLLS_ON) return to == RESTS && k->steps < most && come_to_rest(&s, &at) && tell_in_dip(k, &of, &at);
     }
     return 0;
 }
@@ -537,19 +567,14 @@ static inline enum glanced tell_couplet(couplet *k, search *q, int max_steps)
     see_first(k);
     const enum glanced sized = doubt_solids(k);
     if (sized != TELLING) return sized;
-    if (k->e.height > 0) {
-        weigh_evidence(&k->e, k->v, k->doubt);
-        if (k->e.lower > 0) {
-            keep_apart(k, &k->e, k->v, 1);
-            return TELLING;
-        }
-    }
+    if (k->e.height > 0 && solids_apart(k)) return TELLING;
     know_axes(k);
     if (!(k->e.height > 0) && meet_on_line(k)) return TELLING;
     const int ellipsoids = k->a.kind == IS_ELLIPSOID && k->b.kind == IS_ELLIPSOID;
-    if (max_steps > 2 && (ellipsoids ? tell_ellipsoids(k) : tell_by_dip(k))) return TELLING;
+    const int most = max_steps / 2 < MOST_STRIDES ? max_steps / 2 : MOST_STRIDES;
+    if (k->steps < most && (ellipsoids ? tell_ellipsoids(k) : tell_by_dip(k, most))) return TELLING;
     if (ellipsoids && HAS_SISTER) return IN_VAIN; /* she has the digits */
-    return stride_on_solids(k, q, max_steps / 2 < MOST_STRIDES ? max_steps / 2 : MOST_STRIDES) ? TELLING : IN_VAIN;
+    return stride_on_solids(k, q, most) ? TELLING : IN_VAIN;
 }
 
 /* What the couplet says, in the caller's lengths. */
