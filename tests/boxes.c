@@ -627,6 +627,49 @@ static void in_line_in_another_unit(void **state)
     }
 }
 
+/* Whether boxes meet whose axes are off length 1, as those of a map in float are, in another unit by the halves or by
+ * the map, a power of two away: the same bits, near contact and far from it. */
+static void loose_in_another_unit(void **state)
+{
+    const int most = sizeof(real) == 8 ? 200 : 20;
+    long met = 0, apart = 0;
+    (void)state;
+    for (at = 0; at < 3000; at++) {
+        draws d = draws_from(33, 0, (uint64_t)at);
+        const int power = below(&d, 2 * most) - most, way = below(&d, 3);
+        V(result) r[2];
+        memset(r, 0, sizeof r);
+        start_body(&p.a, BOX);
+        start_body(&p.b, BOX);
+        draw_halves(&d, &p.a);
+        draw_halves(&d, &p.b);
+        draw_maps(&d, LOOSE);
+        place_b(&d, below(&d, 2) ? AT_FACE : ANYWHERE);
+        bind_pair(&p);
+        for (int k = 0; k < 2; k++) {
+            assert_true(V(intersect)(&p.a.shape, &p.b.shape, NULL, &r[k]) >= 0);
+            for (int i = 0; i < DIM; i++) {
+                p.a.half[i] = (real)ldexp((double)p.a.half[i], way == 1 ? -power : power);
+                p.b.half[i] = (real)ldexp((double)p.b.half[i], way == 2 ? 0 : power);
+                p.b.pose.p[i] = (real)ldexp((double)p.b.pose.p[i], power);
+            }
+            for (int i = 0; i < DIM * DIM; i++) {
+                p.a.pose.m[i] = (real)ldexp((double)p.a.pose.m[i], way == 1 ? 2 * power : 0);
+                p.b.pose.m[i] = (real)ldexp((double)p.b.pose.m[i], way == 2 ? power : 0);
+            }
+            bind_pair(&p);
+        }
+        assert_true(ldexp((double)r[0].lower, power) == (double)r[1].lower);
+        assert_true(ldexp((double)r[0].upper, power) == (double)r[1].upper);
+        assert_true(memcmp(r[0].normal, r[1].normal, sizeof r[0].normal) == 0);
+        assert_int_equal(r[0].steps, r[1].steps);
+        met += r[0].upper < 0;
+        apart += r[0].lower > 0;
+    }
+    print_message("loose, in another unit: %ld meet, %ld are apart\n", met, apart);
+    assert_true(met > 500 && apart > 500);
+}
+
 /* Slack as large as a number is takes all that is known of the depth, and leaves a number. */
 static void slack_beyond_all(void **state)
 {
@@ -703,8 +746,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depths_of_boxes),         cmocka_unit_test(signs_of_boxes),
         cmocka_unit_test(numbers_that_underflow),  cmocka_unit_test(axes_short_by_roundings),
-        cmocka_unit_test(in_line_in_another_unit), cmocka_unit_test(slack_beyond_all),
-        cmocka_unit_test(slack_beyond_tolerance)};
+        cmocka_unit_test(in_line_in_another_unit), cmocka_unit_test(loose_in_another_unit),
+        cmocka_unit_test(slack_beyond_all),        cmocka_unit_test(slack_beyond_tolerance)};
     exact_start(&best);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,12 +46,14 @@ static inline real skew_among(const vec u[DIM], real off)
 /* The same of a box in the frame. */
 static inline real skew_of(const gauge *k, int at) { return skew_among(k->u + DIM * at, k->off); }
 
-/* 0: an axis is too long or too short to have been turned alone. */
-static inline int take_off(gauge *k)
+/* The same as LENGTH_OFF of one that was turned in float, whatever is asked in: lengths along it are good enough to
+ * tell where to look, but where the boxes nearly touch. */
+#define ROUGHLY ((real)0x1p-12)
+
+static inline void take_off(gauge *k)
 {
     k->off = 0;
     EACH(k->off = larger(size(k->uu[0].c[i] - 1), k->off); k->off = larger(size(k->uu[1].c[i] - 1), k->off));
-    return k->off <= LENGTH_OFF;
 }
 
 /* To length 1. 0: the axes are far from square to each other, where guesses are no good. */
@@ -73,14 +75,15 @@ static int bring_to_length(gauge *k)
 static real level_of_axes(const body *k)
 {
     const real level = level_of_map(k), first = squared_axes(k, level).c[0];
-    return first > UNIT ? level * leveler(root(first) * (1 + LENGTH_OFF)) : level;
+    return first > UNIT ? level * leveler(root(first) * (1 + ROUGHLY)) : level;
 }
 
 /* How high the first corner is, along the way from b to a, times the length of that, whose square is cc. */
 static inline real first_height(vec e, vec f, vec t, vec s, real cc) { return cc - (dot_size(e, t) + dot_size(f, s)); }
 
-/* 0: there is none to reckon by; of a box that is but a point, for one. */
-static APART int take_gauge_in_frame(gauge *k, const difference *d)
+/* Axes that are off length 1 by more than most are brought to it. 0: there is none to reckon by; of a box that is but a
+ * point, for one. */
+static APART int take_gauge_in_frame(gauge *k, const difference *d, real most)
 {
     zonotope z;
     if (d->a.size == 0 || d->b.size == 0) return 0;
@@ -92,14 +95,16 @@ static APART int take_gauge_in_frame(gauge *k, const difference *d)
     for (int i = 0; i < AXES; i++) k->u[i] = z.u[i];
     EACH(k->uu[0].c[i] = z.uu[i]; k->uu[1].c[i] = z.uu[DIM + i]; k->e.c[i] = z.e[i]; k->f.c[i] = z.e[DIM + i];
          k->unit[0].c[i] = z.level[0]; k->unit[1].c[i] = z.level[1]);
-    if (!take_off(k) && !(is_fair(&z, 0) && is_fair(&z, 1) && bring_to_length(k))) return 0;
+    take_off(k);
+    if (!(k->off <= most) && !(is_fair(&z, 0) && is_fair(&z, 1) && bring_to_length(k))) return 0;
     EACH(k->t.c[i] = dot(k->u[i], d->c); k->s.c[i] = -dot(k->u[DIM + i], mul(d->c, -1)));
     k->cc = dot(d->c, d->c);
     k->first = first_height(k->e, k->f, k->t, k->s, k->cc);
     return 1;
 }
 
-/* The same of boxes that see the way between them as t and s, and whose squared axes are known: all in it. */
+/* The same of boxes that see the way between them as t and s, and whose squared axes are known: all in it. 0: an axis
+ * is too long or too short to reckon by as it is. */
 static inline int take_gauge(gauge *k, const difference *d)
 {
     k->framed = k->brought = 0;
@@ -108,7 +113,8 @@ static inline int take_gauge(gauge *k, const difference *d)
     k->e = load(((const box *)d->a.data)->half);
     k->f = load(((const box *)d->b.data)->half);
     EACH(k->unit[0].c[i] = k->unit[1].c[i] = 1);
-    return take_off(k);
+    take_off(k);
+    return k->off <= ROUGHLY;
 }
 
 static inline vec clamped(vec x, vec e)
@@ -502,11 +508,15 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
     return tell_evidence(q, &e, v, a, b, r) ? TELLING : IN_VAIN;
 }
 
+/* With the axes as they are, if they may be; and where that tells nothing, of length 1. */
 static APART int tell_by_axes_in_frame(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
     gauge k;
-    if (!take_gauge_in_frame(&k, &q->d) || k.first > 0) return 0;
-    return tell_by_axes(q, &k, max_steps, a, b, r);
+    for (real most = ROUGHLY; take_gauge_in_frame(&k, &q->d, most) && !(k.first > 0); most = LENGTH_OFF) {
+        if (tell_by_axes(q, &k, max_steps, a, b, r)) return 1;
+        if (q->glanced == AIMED || k.off <= LENGTH_OFF) break;
+    }
+    return 0;
 }
 
 /* A glance in the frame, where none told without. */

@@ -291,7 +291,7 @@ static APART int tell_gap(search *q, const shape *a, const shape *b, const goal 
     vec x, y;
     vec way;
     real h[AXES];
-    if (!take_gauge_in_frame(&k, &q->d)) return 0;
+    if (!take_gauge_in_frame(&k, &q->d, LENGTH_OFF)) return 0;
     for (int i = 0; i < DIM; i++) h[i] = reach_along_a(&k, i);
     for (int i = 0; i < DIM; i++) h[DIM + i] = reach_along_b(&k, i);
     const int least = least_of(h, AXES);

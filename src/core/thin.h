@@ -255,7 +255,8 @@ static real skew_of_box(vista *k)
     k->uu = mul(k->uu, by * by);
     own.uu[0] = own.uu[1] = k->uu;
     EACH(for (int j = 0; j < DIM; j++) own.u[i].c[j] = k->box->m[DIM * j + i] * k->level);
-    return take_off(&own) ? skew_of(&own, 0) : 1;
+    take_off(&own);
+    return own.off <= LENGTH_OFF ? skew_of(&own, 0) : 1;
 }
 
 /* How far from the box's sides the point is for certain, if it is in it; 0: it is not known to be. From the side that
