@@ -23,7 +23,7 @@ static const uint64_t known[3] = {0xa952116dee02cbd3, 0x039d244bd1d4ee07, 0xbeb2
 static const uint64_t known[3] = {0x1d195d5d1989e02a, 0x27f5406e2be30179, 0xee3cccbd7040c9e1};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x45b9048d14a44945, 0x3e81b7b64c34c87c, 0xfc87a0265c6b9fe0};
+static const uint64_t known[3] = {0x45b9048d14a44945, 0x680e4cbea1c1056c, 0xfc87a0265c6b9fe0};
 #endif
 #if VARIANT_FLOAT
 typedef float real;
