@@ -316,6 +316,39 @@ static void no_way_out(void **state)
     printf("apart: %ld, of which %ld beside a dip above 0\n", reached, close_by);
     assert_true(close_by > 0);
 }
+/* Overlaps of a thousandth, which no point of the line of centres shows: by a point near the dip, with few corners,
+ * also where one body's edge is sharp; and with no more than are allowed. */
+static void a_shallow_overlap_needs_few_corners(void **state)
+{
+    long reached = 0, few = 0, allowed = 0;
+    (void)state;
+    state_of_draws = 7;
+    for (int k = 0; k < 2 * PAIRS; k++) {
+        result r = {0}, s = {0};
+        options o = {.size = sizeof o, .max_steps = 3 + (uint32_t)(k / (KINDS * KINDS)) % 8};
+        draw_any_pair(k, 2);
+        for (int i = 0; i < 8 && !(s.value > -2e-3 && s.value < -5e-4); i++) {
+            pub(penetration)(&shapes[0], &shapes[1], NULL, &s);
+            for (int j = 0; j < DIM; j++) {
+                poses[1].p[j] -= (s.value + 1e-3) * s.normal[j];
+            }
+        }
+        assert_true(pub(penetration)(&shapes[0], &shapes[1], NULL, &s) >= 0);
+        if (!(s.value > -2e-3 && s.value < -5e-4)) {
+            continue;
+        }
+        reached++;
+        assert_int_equal(pub(intersect)(&shapes[0], &shapes[1], NULL, &r), GJK_DECIDED);
+        assert_true(r.upper < 0 && r.lower <= s.upper && s.lower <= r.upper);
+        few += r.steps <= 3;
+        assert_true(pub(intersect)(&shapes[0], &shapes[1], &o, &r) >= 0);
+        assert_true(r.steps <= o.max_steps);
+        allowed += r.upper < 0;
+    }
+    printf("shallow: %ld of %ld by three corners at most; %ld by as many as allowed\n", few, reached, allowed);
+    assert_true(reached > PAIRS && few * 1000 > reached * 682);
+}
+
 #endif
 
 int main(void)
@@ -326,6 +359,7 @@ int main(void)
         cmocka_unit_test(a_gap_needs_no_walk),
 #if DIM == 3
         cmocka_unit_test(no_way_out),
+        cmocka_unit_test(a_shallow_overlap_needs_few_corners),
 #endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

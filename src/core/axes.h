@@ -50,6 +50,7 @@ static inline real skew_of(const gauge *k, int at) { return skew_among(k->u + DI
  * tell where to look, but where the boxes nearly touch. */
 #define ROUGHLY ((real)0x1p-12)
 
+/* How far the squares of the axes are off 1. */
 static inline void take_off(gauge *k)
 {
     k->off = 0;
