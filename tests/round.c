@@ -342,7 +342,7 @@ static void a_shallow_overlap_needs_few_corners(void **state)
         assert_true(r.upper < 0 && r.lower <= s.upper && s.lower <= r.upper);
         few += r.steps <= 3;
         assert_true(pub(intersect)(&shapes[0], &shapes[1], &o, &r) >= 0);
-        assert_true(r.steps <= o.max_steps);
+        assert_true((uint32_t)r.steps <= o.max_steps);
         allowed += r.upper < 0;
     }
     printf("shallow: %ld of %ld by three corners at most; %ld by as many as allowed\n", few, reached, allowed);
