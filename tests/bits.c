@@ -17,7 +17,7 @@
 static const uint64_t known[3] = {0x5bae16ea7dbe29a7, 0xf8c1f87eea8bc17b, 0x062cc32a984d168d};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xa952116dee02cbd3, 0x039d244bd1d4ee07, 0xbeb2909f7f3cadaf};
+static const uint64_t known[3] = {0x23b506b3359e2b62, 0x9bf94435f2464846, 0x227e6ddb9c538097};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x1d195d5d1989e02a, 0x27f5406e2be30179, 0xee3cccbd7040c9e1};

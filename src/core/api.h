@@ -552,12 +552,21 @@ static inline const cache *lender_of(const shape *a, const shape *b, const optio
     return o->cache && !(sign_only && are_boxes(a, b)) && lends(o->cache, a, b) ? o->cache : NULL;
 }
 
+/* Where float can't tell how far apart two boxes are, in space, the sister may; how deep, that she may not. */
+static int ask_sister_how_far(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    goal far = *g;
+    far.deep = 0;
+    return HAS_SISTER && DIM == 3 && ask_sister_alone(q, a, b, o, &far, r) && (!g->deep || r->lower > 0);
+}
+
 /* How deep two boxes are, if that is asked, or how far apart. */
 static inline int tell_extent(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     if (g->deep && (tell_level(q, a, b, g, r) || (ask_centres(q) && tell_boxes(q, a, b, g, r)))) return 1;
-    if (!tell_gap(q, a, b, g, r)) return 0;
-    if (o->cache && q->pending) remember(o->cache, q, a, b);
+    const int seen = tell_gap(q, a, b, g, r);
+    if (!seen && !ask_sister_how_far(q, a, b, o, g, r)) return 0;
+    if (o->cache && seen && q->pending) remember(o->cache, q, a, b);
     else if (o->cache) o->cache->count = 0; /* a point of both took no corner */
     return 1;
 }
@@ -744,7 +753,8 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
               .max_steps = (int)o->max_steps};
 
     enum end end = STILL;
-    if (!(HAS_SISTER && spent[1] > 0 && ask_sister_alone(q, a, b, o, &g, &r))) {
+    const int hers = spent[1] > 0 || q->glanced == CLOUDED || q->glanced == AIMED; /* float can't tell */
+    if (!(HAS_SISTER && hers && ask_sister_alone(q, a, b, o, &g, &r))) {
         int bad = reply_to(q, a, b, o, &g, &end, &r);
         if (bad) return bad;
     }

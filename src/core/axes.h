@@ -7,6 +7,7 @@
 
 #include "glance.h"
 #include "touch.h"
+#include "widen.h"
 #include "zonotope.h"
 
 /* The boxes as they see each other, in lengths along their axes. Where a box's axes are not square to each other it is
@@ -472,8 +473,9 @@ HOT int tell_by_axes(search *q, gauge *k, int max_steps, const shape *a, const s
 static APART enum glanced glance_along_axes(search *q, gauge *k, int max_steps, const shape *a, const shape *b,
                                             result *r)
 {
-    q->glanced = IN_VAIN;
-    if (take_gauge(k, &q->d) && tell_by_axes(q, k, max_steps, a, b, r)) return TELLING;
+    const int taken = take_gauge(k, &q->d);
+    q->glanced = taken ? CLOUDED : IN_VAIN;
+    if (taken && tell_by_axes(q, k, max_steps, a, b, r)) return TELLING;
     if (!q->pending) know_first(q, k);
     return q->glanced;
 }
@@ -509,13 +511,14 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
     return tell_evidence(q, &e, v, a, b, r) ? TELLING : IN_VAIN;
 }
 
-/* With the axes as they are, if they may be; and where that tells nothing, of length 1. */
+/* With the axes as they are, if they may be; and where that tells nothing, of length 1, unless the sister is to be
+ * asked who needs neither. */
 static APART int tell_by_axes_in_frame(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
     gauge k;
     for (real most = ROUGHLY; take_gauge_in_frame(&k, &q->d, most) && !(k.first > 0); most = LENGTH_OFF) {
         if (tell_by_axes(q, &k, max_steps, a, b, r)) return 1;
-        if (q->glanced == AIMED || k.off <= LENGTH_OFF) break;
+        if (HAS_SISTER || q->glanced == AIMED || k.off <= LENGTH_OFF) break;
     }
     return 0;
 }

@@ -41,9 +41,9 @@ enum end {
     FAULT   /* a support's answer was none */
 };
 
-/* How a glance at the first corner went: not cast; the sizes were none to tell by; it told nothing; it told nothing
- * along an axis of two boxes either; nor did a few strides from there; or the answer. */
-enum glanced { UNTRIED, UNCLEAR, IN_VAIN, AIMED, STRODE, TELLING };
+/* How a glance at the first corner went: not cast; the sizes were none to tell by; it told nothing; nor did the axes of
+ * two boxes; nor the corner along one of them; nor a few strides from there; or the answer. */
+enum glanced { UNTRIED, UNCLEAR, IN_VAIN, CLOUDED, AIMED, STRODE, TELLING };
 
 /* Where a walk was left, the count 0 if nowhere: the simplex, with what it took to come there, and what is known. */
 typedef struct find {
@@ -67,7 +67,7 @@ typedef struct search {
     enum glanced thin;    /* how it went with thin cores, without a frame; and */
     enum glanced planar;  /* with few corners in the plane; and */
     enum glanced flat;    /* with these in double */
-    enum glanced glanced; /* IN_VAIN, AIMED: the corner is in s's first slot, in the caller's lengths */
+    enum glanced glanced; /* IN_VAIN to AIMED: the corner is in s's first slot, in the caller's lengths */
     simplex s;
     vec v;
     real vv;      /* v.v; REAL_MAX before there is a simplex */

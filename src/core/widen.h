@@ -121,14 +121,16 @@ static real rounded_to_range(double x)
     return (real)(x > most ? most : x < -most ? -most : x);
 }
 
-/* Half of what was asked for, since the bounds are rounded once more, and no more digits than float can show. */
-static sister(options) sister_options(const options *o, const search *q)
+/* Half of what was asked for, since the bounds are rounded once more, and no more digits than float can show. Of the
+ * sign there are none, and known corners are told as well as they can be. */
+static sister(options) sister_options(const options *o, const search *q, const goal *g)
 {
     sister(options) r = {.size = sizeof r, .max_steps = o->max_steps - (uint32_t)q->steps};
+    r.slack = (double)o->slack;
+    if (g->sign_only || g->exact) return r;
     r.abs_tol = (double)o->abs_tol / 2;
     r.rel_tol = (double)larger(o->rel_tol / 2, UNIT / 4);
     r.cutoff = (double)o->cutoff;
-    r.slack = (double)o->slack;
     return r;
 }
 
@@ -161,17 +163,24 @@ static void take_better(result *r, const sister(result) * hers, real lower, real
     }
 }
 
-/* Puts the question to the sister, and takes what is better of her answer; her steps and calls are counted. FAULT: she
- * can't be asked or has no answer, and nothing is changed. */
-static APART enum end ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+/* Puts the question to the sister. Her status; below 0: she can't be asked or has no answer. */
+static APART int hear_sister(const search *q, const shape *a, const shape *b, const options *o, const goal *g,
+                             sister(result) * hers)
 {
     widened wide_a, wide_b;
+    sister(options) asked = sister_options(o, q, g);
+    if (q->steps >= g->max_steps || !widen(&wide_a, a) || !widen(&wide_b, b)) return GJK_BAD_ARGUMENT;
+    return g->sign_only ? sister(intersect)(&wide_a.shape, &wide_b.shape, &asked, hers)
+           : g->deep    ? sister(penetration)(&wide_a.shape, &wide_b.shape, &asked, hers)
+                        : sister(distance)(&wide_a.shape, &wide_b.shape, &asked, hers);
+}
+
+/* And takes what is better of her answer; her steps and calls are counted. FAULT: there is none, and nothing is
+ * changed. */
+static enum end ask_sister(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
     sister(result) hers;
-    sister(options) asked = sister_options(o, q);
-    if (q->steps >= g->max_steps || !widen(&wide_a, a) || !widen(&wide_b, b)) return FAULT;
-    int status = g->sign_only ? sister(intersect)(&wide_a.shape, &wide_b.shape, &asked, &hers)
-                 : g->deep    ? sister(penetration)(&wide_a.shape, &wide_b.shape, &asked, &hers)
-                              : sister(distance)(&wide_a.shape, &wide_b.shape, &asked, &hers);
+    int status = hear_sister(q, a, b, o, g, &hers);
     if (status < 0) return FAULT;
     real lower = rounded_down(hers.lower), upper = -rounded_down(-hers.upper);
     if (g->deep) take_all(r, &hers, lower, upper); /* overlapping, there may be several ways out */
@@ -181,23 +190,31 @@ static APART enum end ask_sister(search *q, const shape *a, const shape *b, cons
     return status == GJK_LIMIT ? OPEN : STILL;
 }
 
-/* The same of whether boxes meet, or what a formula tells, where so near to contact float can't: what she sees at a
- * glance costs less than a walk. All of the answer is hers. 0: she has none that float can spell; only r is changed. */
+/* Whether she knows enough to go without float's own: of more than the sign, about as many digits as float has. */
+static int is_final(const sister(result) * hers, const goal *g)
+{
+    return g->sign_only || hers->upper - hers->lower <= 8 * (double)UNIT * hers->upper;
+}
+
+/* The same of boxes, or what a formula tells, where so near to contact float can't: what she sees at a glance costs
+ * less than a walk. All of the answer is hers. 0: she has none that is final and that float can spell. */
 static APART int ask_sister_alone(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
-    const int steps = q->steps, calls = q->d.calls;
-    q->steps = q->d.calls = 0;
+    sister(result) hers;
+    const int steps = q->steps;
+    q->steps = 0;
+    const int status = hear_sister(q, a, b, o, g, &hers);
+    q->steps = steps;
+    if (status < 0 || status == GJK_LIMIT || !is_final(&hers, g)) return 0;
+    const real lower = rounded_down(hers.lower), upper = -rounded_down(-hers.upper);
+    if (!(lower > -REAL_MAX && upper < REAL_MAX)) return 0;
     r->lower = -REAL_MAX;
     r->upper = REAL_MAX;
-    if (ask_sister(q, a, b, o, g, r) == STILL && r->lower > -REAL_MAX && r->upper < REAL_MAX) {
-        r->steps = q->steps;
-        r->supports = q->d.calls;
-        r->reserved = 0;
-        return 1;
-    }
-    q->steps = steps;
-    q->d.calls = calls;
-    return 0;
+    take_better(r, &hers, lower, upper);
+    r->steps = hers.steps;
+    r->supports = hers.supports;
+    r->reserved = 0;
+    return 1;
 }
 
 #endif
