@@ -97,9 +97,9 @@ typedef struct gjk3f_result {
  * With options.tight, of sets whose corners are known (points, box, segment, triangle, origin, by the address of these
  * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
  * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
- * of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 27, but of two boxes 50 as well
- * where double is in the library: near contact they go on in that. A pair that spans more keeps the usual bracket. A
- * library built with GJK_NO_EXACT does without. */
+ * of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 27, but of two boxes 50, too,
+ * unless it is built with GJK_ALONE. A pair that spans more keeps the usual bracket. A library built with GJK_NO_EXACT
+ * does without. */
 GJK_API int gjk3f_distance(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
