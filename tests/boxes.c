@@ -685,7 +685,7 @@ static void near_contact(void **state)
     for (at = 0; at < 1000; at++) {
         draws d = draws_from(34, 0, (uint64_t)at);
         V(options) tight = default_options();
-        V(result) r, s;
+        V(result) r, s, t;
         start_body(&p.a, BOX);
         start_body(&p.b, BOX);
         draw_halves(&d, &p.a);
@@ -710,6 +710,8 @@ static void near_contact(void **state)
         tight.tight = 1;
         assert_int_equal(V(distance)(&p.a.shape, &p.b.shape, &tight, &s), GJK_OK);
         assert_true(r.status == GJK_OK && r.lower <= s.upper && s.lower <= r.upper);
+        assert_int_equal(V(penetration)(&p.a.shape, &p.b.shape, NULL, &t), GJK_OK);
+        assert_true(t.lower == r.lower && t.value == r.value && t.upper == r.upper);
 #if VARIANT_FLOAT
         assert_true(fabs((double)r.value - (double)s.value) <= 4 * U * (double)s.value);
         assert_true((double)r.upper - (double)r.lower <= 16 * U * (double)s.value);

@@ -316,6 +316,7 @@ static void no_way_out(void **state)
     printf("apart: %ld, of which %ld beside a dip above 0\n", reached, close_by);
     assert_true(close_by > 0);
 }
+
 /* Overlaps of a thousandth, which no point of the line of centres shows: by a point near the dip, with few corners,
  * also where one body's edge is sharp; and with no more than are allowed. */
 static void a_shallow_overlap_needs_few_corners(void **state)

@@ -552,7 +552,8 @@ static inline const cache *lender_of(const shape *a, const shape *b, const optio
     return o->cache && !(sign_only && are_boxes(a, b)) && lends(o->cache, a, b) ? o->cache : NULL;
 }
 
-/* Where float can't tell how far apart two boxes are, in space, the sister may; how deep, that she may not. */
+/* Where float can't tell how far apart two boxes are, in space, the sister may. By penetration as by distance, so that
+ * the two agree; how deep they overlap is left to float's own proof. */
 static int ask_sister_how_far(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     goal far = *g;

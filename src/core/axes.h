@@ -511,8 +511,8 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
     return tell_evidence(q, &e, v, a, b, r) ? TELLING : IN_VAIN;
 }
 
-/* With the axes as they are, if they may be; and where that tells nothing, of length 1, unless the sister is to be
- * asked who needs neither. */
+/* With the axes as they are, if they may be; and where that tells nothing, of length 1. Float leaves that to the
+ * sister: without a frame she is asked at once, and other units are to have the same bits. */
 static APART int tell_by_axes_in_frame(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
     gauge k;
