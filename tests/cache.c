@@ -220,6 +220,7 @@ static void of_garbage(void **state)
             cache.reach_a = (real)magnitude(&d, -3, 3);
             cache.reach_b = (real)(below(&d, 2) ? magnitude(&d, -3, 3) : (double)NAN);
             cache.count = (uint32_t)below(&d, DIM + 3);
+            cache.reserved = (uint32_t)below(&d, 2);
         }
         if (i % 4 == 3) { /* the right reaches too, as after a query */
             real dir[DIM] = {1}, x[DIM];
@@ -398,6 +399,85 @@ static void of_points_edited(void **state)
     }
 }
 
+#if DIM == 3
+/* Which bodies, by turns: a hull, a box, a triangle, a hull of fewer than eight corners. */
+static void draw_turning(draws *d, body *b, int sort)
+{
+    if (sort < 2) draw_hull(d, b, 8 + below(d, 25), 1);
+    else if (sort == 2) draw_box(d, b, 0.3, 1);
+    else draw_hull(d, b, sort == 3 ? 3 : 4 + below(d, 4), 1);
+    turn(d, b, 100);
+}
+
+/* A little further. */
+static void turn_on(draws *d, body *b, double angle)
+{
+    const body before = *b;
+    double m[DIM * DIM];
+    rotation(d, angle, m);
+    for (int i = 0; i < DIM; i++) {
+        for (int j = 0; j < DIM; j++) {
+            double sum = 0;
+            for (int k = 0; k < DIM; k++) {
+                sum += m[DIM * i + k] * (double)before.pose.m[DIM * k + j];
+            }
+            b->pose.m[DIM * i + j] = (real)sum;
+        }
+    }
+}
+
+/* b so far from a, or so deep in it, as penetration says. */
+static void place_apart(draws *d, real gap)
+{
+    V(result) r;
+    double dir[DIM];
+    unit(d, dir);
+    memset(p.b.pose.p, 0, sizeof p.b.pose.p);
+    move(&p.b, dir, 0.5);
+    assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r) >= 0);
+    for (int i = 0; i < DIM; i++) {
+        p.b.pose.p[i] += (gap - r.value) * r.normal[i];
+    }
+}
+
+/* Bodies that go their way, apart or in each other, tell whether they still are by one corner, or by what the cache has
+ * kept. */
+static void on_a_way(void **state)
+{
+    long asked[2] = {0}, at_once[2] = {0};
+    (void)state;
+    for (uint64_t i = 0; i < 2000; i++) {
+        draws d = draws_from(6, 15, i);
+        const int sort = below(&d, 5), meet = below(&d, 2);
+        double dir[DIM];
+        V(result) warm, cold;
+        draw_turning(&d, &p.a, sort);
+        draw_turning(&d, &p.b, sort == 2 ? 0 : below(&d, 5));
+        bind_pair(&p);
+        place_apart(&d, (real)((meet ? -1 : 1) * magnitude(&d, -2, -1)));
+        start_cache();
+        unit(&d, dir);
+        for (int step = 0; step < 8; step++) {
+            move(&p.b, dir, 1e-4);
+            turn_on(&d, &p.b, 1e-3);
+            ask_both(&warm, &cold);
+            assert_true(agree(&warm, &cold));
+            find_truth(&t, &p.a, &p.b, 1);
+            assert_true((quad)warm.lower <= t.upper && (quad)warm.upper >= t.lower);
+            if (step < 3) {
+                continue; /* the cache is filled, and then sees which way */
+            }
+            asked[warm.lower <= 0]++;
+            at_once[warm.lower <= 0] += warm.supports <= (warm.lower > 0 ? 2 : 0);
+        }
+    }
+    printf("%-6s told at once: %ld of %ld apart, %ld of %ld that meet\n", VARIANT, at_once[0], asked[0], at_once[1],
+           asked[1]);
+    assert_true(asked[0] > 2000 && asked[1] > 2000);
+    assert_true(at_once[0] > asked[0] * 9 / 10 && at_once[1] > asked[1] * 9 / 10);
+}
+#endif
+
 static void soil_the_stack(int with)
 {
     volatile unsigned char soil[1 << 16];
@@ -559,6 +639,9 @@ int main(void)
         cmocka_unit_test(of_fewer_points),
 #endif
         cmocka_unit_test(of_the_pair_alone),
+#if DIM == 3
+        cmocka_unit_test(on_a_way),
+#endif
         cmocka_unit_test(after_a_leap),
         cmocka_unit_test(after_slack),
         cmocka_unit_test(scribbled_at),

@@ -162,15 +162,19 @@ static void note_pair(const pair *p, range *own, range *world, range *maps)
 
 /* ---- the same bits ---- */
 
-#define ANSWERS 12
+#define ANSWERS 17
 #define WITH_OPTIONS 2     /* of these, the first after the KINDS */
 #define OF_UNKNOWN_REACH 2 /* and the next */
+#define WARM (KINDS + WITH_OPTIONS + OF_UNKNOWN_REACH)
 
 typedef struct answers {
     V(result) r[ANSWERS];
 } answers;
 
-/* Cold by default and tight; with every option; and along a warm path of three places. */
+/* Along a warm path: distance, intersect, or that tight. */
+static const char warm_path[] = "diiidtiii";
+
+/* Cold by default and tight; with every option; and along that path, b elsewhere each time. */
 static void ask_all(const pair *given, int set, int map, answers *out)
 {
     static pair p;
@@ -205,9 +209,9 @@ static void ask_all(const pair *given, int set, int map, answers *out)
     bind_pair(&p);
     o = default_options();
     o.cache = &cache;
-    for (int step = 0; n < ANSWERS; step++, n++) {
-        o.tight = step == 3;
-        out->r[n].status = queries[step % 2](&p.a.shape, &p.b.shape, &o, &out->r[n]);
+    for (int step = 0; warm_path[step]; step++, n++) {
+        o.tight = warm_path[step] == 't';
+        out->r[n].status = queries[warm_path[step] != 'd'](&p.a.shape, &p.b.shape, &o, &out->r[n]);
         p.b.pose.p[step % DIM] += resized((real)0.015625, set + map);
     }
 }
@@ -304,7 +308,7 @@ static void must_be_same(const pair *p, const answers *x, const answers *y, int 
                         x->r[i].status, (double)x->r[i].lower, (double)x->r[i].value, (double)x->r[i].upper,
                         y->r[i].status, ldexp((double)y->r[i].lower, -k), ldexp((double)y->r[i].value, -k),
                         ldexp((double)y->r[i].upper, -k), k);
-            print_case(stderr, query_name[i % 2], &p->a, &p->b);
+            print_case(stderr, i < WARM ? query_name[i % 2] : "warm", &p->a, &p->b);
         }
     }
 }

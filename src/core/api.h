@@ -100,6 +100,19 @@ static enum glanced stride_and_remember(search *q, const shape *a, const shape *
     if (seen == TELLING && o->cache) remember(o->cache, q, a, b);
     return seen;
 }
+
+/* By what the cache has kept. So many steps and calls were spent, if that tells nothing. */
+static enum glanced recall_and_remember(search *q, const shape *a, const shape *b, const options *o, result *r,
+                                        int spent[2])
+{
+    q->lent = recall_outside(q, o->cache, a, b, r);
+    if (q->lent == TELLING) remember(o->cache, q, a, b);
+    spent[0] = q->lent == IN_VAIN ? q->steps : 0;
+    spent[1] = 2 * spent[0];
+    return q->lent == TELLING ? TELLING : UNTRIED;
+}
+#else
+#define recall_and_remember(q, a, b, o, r, spent) UNTRIED
 #endif
 
 /* The goal in the search's scale. */
@@ -592,6 +605,13 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     }
     if (HAS_SISTER && g->sign_only && q->thin && !q->told) q->told = ask_sister_alone(q, a, b, o, asked, r);
     if (q->told || tell_polygons_in_frame(q, a, b, o, asked, r)) return STILL;
+#if DIM == 3
+    if (q->lent == UNCLEAR && recall_in_frame(q, o->cache, a, b, r)) {
+        remember(o->cache, q, a, b);
+        q->told = 1;
+        return BEYOND;
+    }
+#endif
     if (!open_listed(q, lender_of(a, b, o, g->sign_only))) return FAULT;
     if (q->glanced == UNCLEAR || (q->glanced && q->d.wild) || (boxes && g->sign_only && q->glanced != AIMED))
         q->told = look_in_frame(q, g->max_steps, a, b, r);
@@ -661,6 +681,7 @@ static WHOLE int answer_distance(search *q, const shape *a, const shape *b, cons
     const options *o = read_options(&own, given);
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
+    q->lent = UNTRIED;
     list_both(q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,
@@ -730,14 +751,14 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
     const options *o = check_options(&own, given);
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    if (q->glanced == UNTRIED && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d) &&
-        !lender_of(a, b, o, 1))
-        q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, out) : glance(q, a, b, out);
+    int spent[2] = {0, 0}; /* steps and calls, on what is left to the search */
+    if (q->glanced == UNTRIED && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d)) {
+        if (!lender_of(a, b, o, 1))
+            q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, out) : glance(q, a, b, out);
+        else if (is_recalled(q, a, b, (int)steps_of(o))) q->glanced = recall_and_remember(q, a, b, o, out, spent);
+    }
 #if DIM == 3
     if (q->glanced == IN_VAIN) q->glanced = stride_and_remember(q, a, b, o, out);
-#endif
-    int spent[2] = {0, 0}; /* steps and calls, on solids that are left to the search */
-#if DIM == 3
     if (!q->listed && o->slack == 0 && look_at_solids(q, (int)steps_of(o), a, b, out, spent)) q->glanced = TELLING;
 #endif
     if (q->glanced == TELLING) return out->status = GJK_DECIDED;
@@ -754,7 +775,8 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
               .max_steps = (int)o->max_steps};
 
     enum end end = STILL;
-    const int hers = spent[1] > 0 || q->glanced == CLOUDED || q->glanced == AIMED; /* float can't tell */
+    const int hers =
+        (!q->listed && spent[1] > 0) || q->glanced == CLOUDED || q->glanced == AIMED; /* float can't tell */
     if (!(HAS_SISTER && hers && ask_sister_alone(q, a, b, o, &g, &r))) {
         int bad = reply_to(q, a, b, o, &g, &end, &r);
         if (bad) return bad;
@@ -773,8 +795,8 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
 {
     search q;
     q.dug = -1;
-    q.glanced = UNTRIED;
-    if (are_plain_hulls(a, b, given, out)) q.glanced = glance_at_hulls(&q, a, b, out);
+    q.glanced = q.lent = UNTRIED;
+    if (are_plain_hulls(a, b, given, out)) q.glanced = glance_at_hulls(&q, given ? given->cache : NULL, a, b, out);
     else if (are_plain_boxes(a, b, given, out)) q.glanced = glance_at_plain_boxes(&q, (int)steps_of(given), a, b, out);
     if (q.glanced == TELLING) return out->status = GJK_DECIDED;
     if (q.glanced == UNTRIED && tell_plainly(&q, a, b, given, 1, 0, out)) return out->status = GJK_DECIDED;
@@ -792,6 +814,7 @@ static int answer_penetration(search *q, const shape *a, const shape *b, const o
     const options *o = read_options(&own, given);
     result r;
     if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
+    q->lent = UNTRIED;
     list_both(q, a, b, o);
     real radius = a->radius + b->radius;
     goal g = {.beyond = REAL_MAX,

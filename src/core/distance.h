@@ -68,6 +68,7 @@ typedef struct search {
     enum glanced planar;  /* with few corners in the plane; and */
     enum glanced flat;    /* with these in double */
     enum glanced glanced; /* IN_VAIN to AIMED: the corner is in s's first slot, in the caller's lengths */
+    enum glanced lent;    /* how it went with what the cache has kept (lent.h) */
     simplex s;
     vec v;
     real vv;      /* v.v; REAL_MAX before there is a simplex */

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether two hulls of some corners meet, told at the door: the glance, and the digging where that is deep, before
- * anything is set up for what else may be asked, of bodies or about them. They are those of glance.h and stride.h to
- * the bit, and what has told nothing the strides go on from. */
+/* Whether two hulls of some corners meet, told at the door: the glance, along the line of centres or the way that a
+ * cache has kept, and the digging where that is deep, before anything is set up for what else may be asked, of bodies
+ * or about them. They are those of glance.h, lent.h and stride.h to the bit, and what has told nothing the strides go
+ * on from. */
 #ifndef GJK_CORE_HULLS_H
 #define GJK_CORE_HULLS_H
 
-#include "stride.h"
+#include "lent.h"
 
 #if DIM == 3
 
-/* Two clouds without radii, and nothing is asked but what everyone asks. */
+/* Two clouds without radii, and nothing is asked but what everyone asks; nor does a cache lend anything but a way. */
 HOT int are_plain_hulls(const shape *a, const shape *b, const options *o, const result *r)
 {
     return a && b && r && a->support == pub(support_points) && b->support == pub(support_points) && a->radius == 0 &&
-           b->radius == 0 && (!o || (asks_nothing_else(o) && !o->cache && o->max_steps == 0));
+           b->radius == 0 &&
+           (!o || (asks_nothing_else(o) && o->max_steps == 0 &&
+                   (!o->cache || lends_way(o->cache) || !lends(o->cache, a, b))));
 }
 
 /* The body of one. 0: it is none, or has so few corners that it may be thin, or they do not lie one beside another. */
@@ -42,16 +45,20 @@ static APART enum glanced dig_at_door(search *q, real height, vec first_at, cons
     return seen;
 }
 
-/* UNTRIED: they are no such hulls, or of sizes that a glance does not know. */
-static APART enum glanced glance_at_hulls(search *q, const shape *a, const shape *b, result *r)
+/* UNTRIED: they are no such hulls, or of sizes that a glance does not know; or the way that a cache has kept has told
+ * nothing, and q->lent says so. Where there is a cache others dig, who fill it. */
+static APART enum glanced glance_at_hulls(search *q, const cache *own, const shape *a, const shape *b, result *r)
 {
     difference *d = &q->d;
     vertex *p = &q->s.slot[0];
     evidence e;
     if (!take_hull(&d->a, a) || !take_hull(&d->b, b)) return UNTRIED;
-    const vec c = offset(a->pose, b->pose), v = mul(c, -1);
+    const vec c = offset(a->pose, b->pose);
+    vec v = mul(c, -1);
     const real cc = dot(v, v);
-    if (!(cc > 1 / PLAIN) || !point_of_hull(&d->a, plain_direction(&d->a, c), FIRST_SIGHT, &p->x) ||
+    const int lent = own && lends(own, a, b);
+    if (lent && !recall_way(d, own, &v)) return UNTRIED;
+    if (!(dot(v, v) > 1 / PLAIN) || !point_of_hull(&d->a, plain_direction(&d->a, mul(v, -1)), FIRST_SIGHT, &p->x) ||
         !point_of_hull(&d->b, plain_direction(&d->b, v), FIRST_SIGHT, &p->y))
         return UNTRIED;
     e.a = mapped(&d->a, p->x);
@@ -72,12 +79,17 @@ static APART enum glanced glance_at_hulls(search *q, const shape *a, const shape
             return TELLING;
         }
     }
+    if (lent) {
+        q->lent = IN_VAIN;
+        return UNTRIED;
+    }
     stay_outside(d, a, b);
     d->doubt = doubt;
     start_glance(q, v);
     p->w = e.w;
     q->listed = 1;
     q->thin = q->planar = q->flat = UNTRIED;
+    if (own) return IN_VAIN;
     q->dug = 0;
     if (!lies_deep(d, e.height)) return IN_VAIN;
     const enum glanced seen = dig_at_door(q, e.height, e.a, a, b, r);
@@ -86,7 +98,7 @@ static APART enum glanced glance_at_hulls(search *q, const shape *a, const shape
 
 #else
 #define are_plain_hulls(a, b, o, r) 0
-#define glance_at_hulls(q, a, b, r) UNTRIED
+#define glance_at_hulls(q, own, a, b, r) UNTRIED
 #endif
 
 #endif

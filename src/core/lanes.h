@@ -31,13 +31,22 @@ static inline lanes largest_in_all(lanes x) { return _mm_max_pd(x, _mm_shuffle_p
 static inline real first_lane(lanes x) { return _mm_cvtsd_f64(x); }
 static inline lanes least_in_all(lanes x) { return _mm_min_pd(x, _mm_shuffle_pd(x, x, 1)); }
 
+/* A bit for each of eight comparisons: whether it holds. */
+HOT unsigned eight_that_hold(const lanes x[4])
+{
+    const __m128 a = _mm_castpd_ps(x[0]), b = _mm_castpd_ps(x[1]), c = _mm_castpd_ps(x[2]), d = _mm_castpd_ps(x[3]);
+    return (unsigned)(_mm_movemask_ps(_mm_shuffle_ps(a, b, 0x88)) | _mm_movemask_ps(_mm_shuffle_ps(c, d, 0x88)) << 4);
+}
+
 /* A bit for each of eight numbers: whether it is as large as y. */
 HOT unsigned eight_as_large(const lanes x[4], lanes y)
 {
-    const __m128 a = _mm_castpd_ps(_mm_cmpge_pd(x[0], y)), b = _mm_castpd_ps(_mm_cmpge_pd(x[1], y));
-    const __m128 c = _mm_castpd_ps(_mm_cmpge_pd(x[2], y)), d = _mm_castpd_ps(_mm_cmpge_pd(x[3], y));
-    return (unsigned)(_mm_movemask_ps(_mm_shuffle_ps(a, b, 0x88)) | _mm_movemask_ps(_mm_shuffle_ps(c, d, 0x88)) << 4);
+    const lanes large[4] = {_mm_cmpge_pd(x[0], y), _mm_cmpge_pd(x[1], y), _mm_cmpge_pd(x[2], y), _mm_cmpge_pd(x[3], y)};
+    return eight_that_hold(large);
 }
+
+/* The first number of each point, step by step. */
+HOT lanes load_firsts(const real *x, size_t step) { return _mm_loadh_pd(_mm_load_sd(x), x + step); }
 
 /* A number of each point, step by step. */
 HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
@@ -76,9 +85,20 @@ static inline lanes least_in_all(lanes x)
     return _mm_min_ps(x, _mm_shuffle_ps(x, x, 0xb1));
 }
 
+HOT unsigned eight_that_hold(const lanes x[2])
+{
+    return (unsigned)(_mm_movemask_ps(x[0]) | _mm_movemask_ps(x[1]) << 4);
+}
+
 HOT unsigned eight_as_large(const lanes x[2], lanes y)
 {
     return (unsigned)(any_as_large(x[0], y) | any_as_large(x[1], y) << 4);
+}
+
+HOT lanes load_firsts(const real *x, size_t step)
+{
+    const lanes low = _mm_unpacklo_ps(_mm_load_ss(x), _mm_load_ss(x + step));
+    return _mm_movelh_ps(low, _mm_unpacklo_ps(_mm_load_ss(x + 2 * step), _mm_load_ss(x + 3 * step)));
 }
 
 /* x and y of two points, step apart. */
@@ -95,10 +115,7 @@ HOT void load_lanes(const real *x, size_t step, lanes c[DIM])
     c[0] = _mm_shuffle_ps(low, high, 0x88);
     c[1] = _mm_shuffle_ps(low, high, 0xdd);
 #if DIM == 3
-    const real *z = x + 2;
-    lanes a = _mm_unpacklo_ps(_mm_load_ss(z), _mm_load_ss(z + step));
-    lanes b = _mm_unpacklo_ps(_mm_load_ss(z + 2 * step), _mm_load_ss(z + 3 * step));
-    c[2] = _mm_movelh_ps(a, b);
+    c[2] = load_firsts(x + 2, step);
 #endif
 }
 #endif
@@ -125,6 +142,17 @@ static inline lanes join_lanes(const real x[LANES]) { return x[0]; }
 static inline lanes largest_in_all(lanes x) { return x; }
 static inline real first_lane(lanes x) { return x; }
 static inline lanes least_in_all(lanes x) { return x; }
+HOT unsigned eight_that_hold(const lanes x[8])
+{
+    unsigned r = 0;
+    for (int k = 0; k < 8; k++) r |= (unsigned)(x[k] != 0) << k;
+    return r;
+}
+HOT lanes load_firsts(const real *x, size_t step)
+{
+    (void)step;
+    return *x;
+}
 HOT unsigned eight_as_large(const lanes x[8], lanes y)
 {
     unsigned r = 0;

@@ -226,18 +226,28 @@ static void thin_out(body *k, size_t n, size_t few)
 }
 
 /* x is a corner of the set. By an index it is found at once where it lies farthest out as seen from the origin. */
-static inline int is_corner(const body *k, vec x)
+static inline int is_corner(const body *k, const real x[DIM])
 {
     const list *l = &k->list;
+    const vec v = load(x);
     candidates s;
-    if (k->asked == AS_BOX) return same(corner_of_box(k->data, x), x);
-    if (look_up(l, x, &s))
+    if (k->asked == AS_BOX) return same(corner_of_box(k->data, v), v);
+    if (look_up(l, v, &s))
         for (; s.from < s.end; s.from++)
-            if (same(nth_of(l, *s.from), x)) return 1;
-    if (l->count >= EIGHT) return is_in_eights(l, x);
+            if (same(nth_of(l, *s.from), v)) return 1;
+    if (l->count >= EIGHT) return are_in_eights(l, (const real(*)[DIM])x, 1);
     for (size_t i = 0; i < l->count; i++)
-        if (same(nth_of(l, i), x)) return 1;
+        if (same(nth_of(l, i), v)) return 1;
     return 0;
+}
+
+/* All of these points are. */
+static inline int are_corners(const body *k, const real x[][DIM], uint32_t n)
+{
+    if (k->asked != AS_BOX && k->list.count >= EIGHT && !k->list.index) return are_in_eights(&k->list, x, n);
+    for (uint32_t i = 0; i < n; i++)
+        if (!is_corner(k, x[i])) return 0;
+    return 1;
 }
 
 /* From these points, which are corners. 0: v has no direction, or nothing comes of it. */
@@ -265,8 +275,7 @@ static int open_at(search *q, const cache *k)
  */
 static int reopen_listed(search *q, const cache *k)
 {
-    for (uint32_t i = 0; i < k->count; i++)
-        if (!is_corner(&q->d.a, load(k->a[i])) || !is_corner(&q->d.b, load(k->b[i]))) return 0;
+    if (!are_corners(&q->d.a, k->a, k->count) || !are_corners(&q->d.b, k->b, k->count)) return 0;
     return open_at(q, k);
 }
 

@@ -279,23 +279,35 @@ HOT int are_finite(lanes sum) { return holds_in_all(no_larger(products(sum, in_a
 
 static inline size_t later_eight(size_t i, size_t last) { return i < last ? i : last; }
 
-/* x is one of eight points or more: of each eight it is asked first whether any has its first coordinate. */
-static APART int is_in_eights(const list *l, vec x)
+/* The first coordinates of eight; and a bit for each of them: whether it is that. */
+HOT eight firsts_of_eight(const real *x, size_t step)
 {
-    const lanes first = in_all(x.c[0]);
-    for (size_t i = 0; i < l->count; i += EIGHT) {
+    eight e;
+    EACH_OF_EIGHT(e.high[i] = load_firsts(x + (size_t)i * LANES * step, step));
+    return e;
+}
+
+HOT unsigned eight_alike(const eight *e, lanes y)
+{
+    lanes alike[EIGHT / LANES];
+    EACH_OF_EIGHT(alike[i] = equals(e->high[i], y));
+    return eight_that_hold(alike);
+}
+
+/* Of the n points x all are among eight points or more: only those are looked at that share the first coordinate. */
+static APART int are_in_eights(const list *l, const real x[][DIM], unsigned n)
+{
+    unsigned left = (1u << n) - 1;
+    for (size_t i = 0; left && i < l->count; i += EIGHT) {
         const real *from = l->v + later_eight(i, l->count - EIGHT) * l->step;
-        lanes any = in_all(0);
-        for (size_t k = 0; k < EIGHT; k += LANES) {
-            lanes c[DIM];
-            load_lanes(from + k * l->step, l->step, c);
-            any = in_either(any, equals(c[0], first));
+        const eight first = firsts_of_eight(from, l->step);
+        for (unsigned k = 0; k < n; k++) {
+            unsigned at = left >> k & 1 ? eight_alike(&first, in_all(x[k][0])) : 0;
+            for (; at; at &= at - 1)
+                if (same(load(from + first_bit(at) * l->step), load(x[k]))) left &= ~(1u << k);
         }
-        if (!holds_in_any(any)) continue;
-        for (size_t k = 0; k < EIGHT; k++)
-            if (same(load(from + k * l->step), x)) return 1;
     }
-    return 0;
+    return !left;
 }
 
 /* Bit i: point i of n is no lower than that. */

@@ -41,14 +41,12 @@ static inline void stand_on_first(search *q)
 }
 
 /* A frame by the doubt of a glance at bodies in the caller's lengths: the root that it is made of is of size 1 to 2. */
-static inline void bring_to_size(search *q)
+static inline void bring_to_size(difference *d)
 {
-    difference *d = &q->d;
     d->scale = d->a.grain = d->b.grain = leveler(d->doubt * (1 / GLANCE_DOUBT));
     d->unscale = 1 / d->scale;
     d->c = mul(d->c, d->scale);
     d->doubt *= d->scale;
-    q->s.slot[0].w = mul(q->s.slot[0].w, d->scale);
 }
 
 /* One in so many of the lists' corners is looked at, SOME at least; of all bounds can be told. */
@@ -432,7 +430,8 @@ static APART enum glanced stride_outside(search *q, int max_steps, const shape *
     vec uu[2];
     if (!are_for_strides(&q->d, a, b)) return IN_VAIN;
     if (!doubt_by_squares(&q->d, dot(q->d.c, q->d.c), uu)) return UNCLEAR;
-    bring_to_size(q);
+    bring_to_size(&q->d);
+    q->s.slot[0].w = mul(q->s.slot[0].w, q->d.scale);
     const enum glanced seen = stands_clear(&q->s.slot[0]) ? stride(q, max_steps, a, b, r) : UNCLEAR;
     if (seen == STRODE) leave_trail(q);
     return seen;
