@@ -58,7 +58,7 @@ typedef struct gjk3f_cache {
     float reach_a, reach_b;     /* of the two sets */
     gjk3f_support_fn *support[2]; /* whose points they are */
     const void *data[2];
-    uint32_t count, reserved; /* the second is the library's own */
+    uint32_t count, reserved; /* the second is the library's own, and so are the points from count on */
 } gjk3f_cache;
 
 /* The one struct that grows. Zero in a field but size means its default; NULL options mean all defaults:
