@@ -120,17 +120,17 @@ HOT dvec dflipped(dvec a, double s)
 }
 HOT unsigned dtag(dvec a)
 {
-    uint64_t digits;
-    memcpy(&digits, a.c, sizeof digits);
-    return (unsigned)digits & 7;
+    uint64_t spelled;
+    memcpy(&spelled, a.c, sizeof spelled);
+    return (unsigned)spelled & 7;
 }
 HOT dvec dtagged(dvec a, unsigned first, unsigned second)
 {
-    uint64_t digits[2];
-    memcpy(digits, a.c, sizeof digits);
-    digits[0] = (digits[0] & ~(uint64_t)7) | first;
-    digits[1] = (digits[1] & ~(uint64_t)7) | second;
-    memcpy(a.c, digits, sizeof digits);
+    uint64_t spelled[2];
+    memcpy(spelled, a.c, sizeof spelled);
+    spelled[0] = (spelled[0] & ~(uint64_t)7) | first;
+    spelled[1] = (spelled[1] & ~(uint64_t)7) | second;
+    memcpy(a.c, spelled, sizeof spelled);
     return a;
 }
 HOT unsigned dwithin(const dvec a[4], dvec x)
