@@ -22,8 +22,6 @@ static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cm
 static inline lanes no_larger(lanes x, lanes y) { return _mm_cmple_pd(x, y); }
 static inline lanes equals(lanes x, lanes y) { return _mm_cmpeq_pd(x, y); }
 static inline lanes in_both(lanes x, lanes y) { return _mm_and_pd(x, y); }
-static inline lanes in_either(lanes x, lanes y) { return _mm_or_pd(x, y); }
-static inline int holds_in_any(lanes x) { return _mm_movemask_pd(x) != 0; }
 static inline int holds_in_all(lanes x) { return _mm_movemask_pd(x) == (1 << LANES) - 1; }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_pd(x); }
@@ -68,8 +66,6 @@ static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_ps(_mm_cm
 static inline lanes no_larger(lanes x, lanes y) { return _mm_cmple_ps(x, y); }
 static inline lanes equals(lanes x, lanes y) { return _mm_cmpeq_ps(x, y); }
 static inline lanes in_both(lanes x, lanes y) { return _mm_and_ps(x, y); }
-static inline lanes in_either(lanes x, lanes y) { return _mm_or_ps(x, y); }
-static inline int holds_in_any(lanes x) { return _mm_movemask_ps(x) != 0; }
 static inline int holds_in_all(lanes x) { return _mm_movemask_ps(x) == (1 << LANES) - 1; }
 static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_ps(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_ps(x); }
@@ -134,8 +130,6 @@ static inline int any_as_large(lanes x, lanes y) { return x >= y; }
 static inline lanes no_larger(lanes x, lanes y) { return x <= y ? 1 : 0; }
 static inline lanes equals(lanes x, lanes y) { return x == y ? 1 : 0; }
 static inline lanes in_both(lanes x, lanes y) { return x * y; }
-static inline lanes in_either(lanes x, lanes y) { return x + y; }
-static inline int holds_in_any(lanes x) { return x != 0; }
 static inline int holds_in_all(lanes x) { return x != 0; }
 static inline void part_lanes(lanes x, real r[LANES]) { r[0] = x; }
 static inline lanes join_lanes(const real x[LANES]) { return x[0]; }

@@ -36,12 +36,6 @@ HOT int stand_on_lent(search *q, const cache *k, vec at[DIM + 1])
     return 1;
 }
 
-/* They are corners. */
-HOT int are_good(const search *q, const cache *k)
-{
-    return are_corners(&q->d.a, k->a, k->count) && are_corners(&q->d.b, k->b, k->count);
-}
-
 /* What the positions show along the line of centres, without a corner: bodies that reach A and B from these overlap by
  * no more than A + B, less by what lies between; and that is below 3/2 of the root of A^2 + B^2 + c^2. */
 HOT void bound_by_reaches(search *q)
@@ -58,7 +52,7 @@ static int holds_still(search *q, const cache *k, const vec at[DIM + 1], const s
 {
     tetra t = {.w = {point(&q->s, 0), point(&q->s, 1), point(&q->s, 2), point(&q->s, 3)}};
     q->inside = room_of(&t, far_out_of(&q->d));
-    if (!(q->inside > q->d.doubt) || !are_good(q, k)) return 0;
+    if (!(q->inside > q->d.doubt) || !are_lent_well(&q->d, k)) return 0;
     bound_by_reaches(q);
     return tell_met(q, &t, 1, at, a, b, r);
 }
@@ -111,7 +105,7 @@ static enum glanced recall(search *q, cache *k, const shape *a, const shape *b, 
         return TELLING;
     }
     q->steps++;
-    if (q->s.n < DIM || !are_good(q, k) || !tell_closed(q, &e, 1, at, a, b, r)) return IN_VAIN;
+    if (q->s.n < DIM || !are_lent_well(&q->d, k) || !tell_closed(q, &e, 1, at, a, b, r)) return IN_VAIN;
     q->kept = 0;
     return TELLING;
 }

@@ -250,6 +250,12 @@ static inline int are_corners(const body *k, const real x[][DIM], uint32_t n)
     return 1;
 }
 
+/* All that the cache lends is of these sets. */
+static inline int are_lent_well(const difference *d, const cache *k)
+{
+    return are_corners(&d->a, k->a, k->count) && are_corners(&d->b, k->b, k->count);
+}
+
 /* From these points, which are corners. 0: v has no direction, or nothing comes of it. */
 static int open_at(search *q, const cache *k)
 {
@@ -273,11 +279,7 @@ static int open_at(search *q, const cache *k)
 /* From the points of the last query, if they are corners still: nothing is taken on trust. 0: they are not, or as
  * above.
  */
-static int reopen_listed(search *q, const cache *k)
-{
-    if (!are_corners(&q->d.a, k->a, k->count) || !are_corners(&q->d.b, k->b, k->count)) return 0;
-    return open_at(q, k);
-}
+static int reopen_listed(search *q, const cache *k) { return are_lent_well(&q->d, k) && open_at(q, k); }
 
 #if DIM == 2
 /* From where polygons looked at by themselves were left. 0: nothing comes of it. */
