@@ -313,6 +313,43 @@ static void of_any_size(void **state)
     }
 }
 
+static int is_one_of(const list *l, vec x)
+{
+    for (size_t k = 0; k < l->count; k++)
+        if (same(nth_of(l, k), x)) return 1;
+    return 0;
+}
+
+/* Every point is one of a cloud with an index, whatever the zeros' signs; but for some roundings it is none; nor is any
+ * that is no number. Many points share coordinates, or all of them. */
+static void one_of_them(void **state)
+{
+    long others = 0;
+    (void)state;
+    for (int i = 0; i < 600; i++) {
+        list l = any_list(i % 3);
+        size_t bytes;
+        if (i % 2) {
+            for (size_t k = 0; k < l.count * l.step; k++) v[k] = (real)(int)(v[k] * 2);
+            l.reach *= 2;
+        }
+        const list with = indexed_list(l, &bytes);
+        for (size_t k = 0; k < l.count; k++) {
+            vec x = nth_of(&l, k);
+            assert_true(is_in_order(&with, x));
+            for (int c = 0; c < DIM; c++) x.c[c] = x.c[c] == 0 ? -x.c[c] : x.c[c];
+            assert_true(is_in_order(&with, x));
+            x.c[below_any(DIM)] *= 1 + (real)(below_any(3) - 1) * 2 * UNIT;
+            const int is_one = is_one_of(&l, x);
+            others += !is_one;
+            assert_true(is_in_order(&with, x) == is_one);
+            x.c[below_any(DIM)] = below_any(2) ? (real)NAN : (real)INFINITY;
+            assert_true(!is_in_order(&with, x));
+        }
+    }
+    assert_true(others > 10000);
+}
+
 static real any_power(void)
 {
     const int most = REAL_IS_DOUBLE ? 1000 : 120;
@@ -427,7 +464,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whichever_way), cmocka_unit_test(wherever_they_are),  cmocka_unit_test(no_numbers),
         cmocka_unit_test(no_sum),        cmocka_unit_test(by_an_index),        cmocka_unit_test(of_any_size),
-        cmocka_unit_test(of_any_length), cmocka_unit_test(lowest_by_an_index),
+        cmocka_unit_test(of_any_length), cmocka_unit_test(lowest_by_an_index), cmocka_unit_test(one_of_them),
     };
     return cmocka_run_group_tests_name("scans", tests, NULL, NULL);
 }

@@ -11,8 +11,8 @@
 
 /* Directions by the face of the cube that they go through, and where they go through that: a square of PER_SIDE cells a
  * side, in the plane a row of them. An index is so many numbers: how many points, how many cells a side, the points'
- * reach as it was, where the points of each cell begin and where the last one's end, and the points. A cell without any
- * stands for all points. */
+ * reach as it was, where the points of each cell begin and where the last one's end, and the points; then all points,
+ * in order of their coordinates. A cell without any stands for all points. */
 enum { OF_POINTS, PER_SIDE, OF_REACH, BEGINS = OF_REACH + sizeof(real) / sizeof(uint32_t) };
 
 #define FACES (2 * DIM)
@@ -75,6 +75,32 @@ static APART size_t farthest_by_index(const list *l, vec d, enum care care)
     candidates s;
     return look_up(l, d, &s) ? farthest_of_those(l, d, s.from, s.end, tells_equals(care))
                              : farthest_scanned(l, d, care);
+}
+
+/* By the first coordinate, of equals by the next. */
+HOT int is_before(vec a, vec b)
+{
+    EACH(if (a.c[i] != b.c[i]) return a.c[i] < b.c[i]);
+    return 0;
+}
+
+/* All points, in that order. */
+static inline const uint32_t *order_of(const uint32_t *index)
+{
+    return index + index[BEGINS + FACES * cells_of_face(index[PER_SIDE])];
+}
+
+/* x is one of the points of a list with an index. */
+static inline int is_in_order(const list *l, vec x)
+{
+    const uint32_t *from = order_of(l->index);
+    size_t n = l->count;
+    while (n > 1) { /* if x is there, it is among these n */
+        const size_t half = n / 2;
+        if (!is_before(x, nth_of(l, from[half]))) from += half;
+        n -= half;
+    }
+    return same(nth_of(l, *from), x);
 }
 
 /* Farthest of the points, the first among equals; of strangers their count if one is not finite. */
@@ -173,6 +199,31 @@ static size_t write_cell(const list *l, uint32_t cell, uint32_t side, uint32_t *
     return 3 * (at - begin) < l->count ? at : begin;
 }
 
+/* Of the order, those from here on sink to where none below is later, as of a heap: below n stand 2n + 1 and 2n + 2. */
+static void sink(const list *l, uint32_t *order, size_t at, size_t end)
+{
+    for (size_t next = 2 * at + 1; next < end; next = 2 * at + 1) {
+        if (next + 1 < end && is_before(nth_of(l, order[next]), nth_of(l, order[next + 1]))) next++;
+        if (!is_before(nth_of(l, order[at]), nth_of(l, order[next]))) return;
+        const uint32_t later = order[next];
+        order[next] = order[at];
+        order[at] = later;
+        at = next;
+    }
+}
+
+static void put_in_order(const list *l, uint32_t *order)
+{
+    for (size_t i = 0; i < l->count; i++) order[i] = (uint32_t)i;
+    for (size_t i = l->count / 2; i-- > 0;) sink(l, order, i, l->count);
+    for (size_t end = l->count; end-- > 1;) {
+        const uint32_t last = order[0];
+        order[0] = order[end];
+        order[end] = last;
+        sink(l, order, 0, end);
+    }
+}
+
 static inline size_t begin_of_points(uint32_t side) { return BEGINS + FACES * cells_of_face(side) + 1; }
 
 /* An index of so many cells a side, as far as it fits before end. How large it is, or that it is larger than most. */
@@ -184,12 +235,14 @@ static size_t write_index(const list *l, uint32_t side, uint32_t *index, size_t 
         if (k < end) index[k] = (uint32_t)at;
         at = write_cell(l, (uint32_t)(k - BEGINS), side, index, at, end);
     }
-    if (at > end) return at;
+    const size_t size = at + l->count;
+    if (size > end) return size;
     index[begins] = (uint32_t)at;
+    put_in_order(l, index + at);
     index[OF_POINTS] = (uint32_t)l->count;
     index[PER_SIDE] = side;
     memcpy(index + OF_REACH, &l->reach, sizeof l->reach);
-    return at;
+    return size;
 }
 
 /* The same of as many cells as make it no larger than it may be: of one a side it is not. */

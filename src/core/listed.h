@@ -225,17 +225,13 @@ static void thin_out(body *k, size_t n, size_t few)
     k->list.step *= n;
 }
 
-/* x is a corner of the set. By an index it is found at once where it lies farthest out as seen from the origin. */
+/* x is a corner of the set. */
 static inline int is_corner(const body *k, const real x[DIM])
 {
     const list *l = &k->list;
     const vec v = load(x);
-    candidates s;
     if (k->asked == AS_BOX) return same(corner_of_box(k->data, v), v);
-    if (look_up(l, v, &s))
-        for (; s.from < s.end; s.from++)
-            if (same(nth_of(l, *s.from), v)) return 1;
-    if (l->count >= EIGHT) return are_in_eights(l, (const real(*)[DIM])x, 1);
+    if (l->index) return is_in_order(l, v);
     for (size_t i = 0; i < l->count; i++)
         if (same(nth_of(l, i), v)) return 1;
     return 0;
