@@ -485,30 +485,46 @@ static inline int are_boxes(const shape *a, const shape *b)
     return a->support == pub(support_box) && b->support == pub(support_box);
 }
 
+/* The doubt as doubt_by_squares has it, of two boxes side by side. */
+HOT int doubt_of_boxes(difference *d, real cc, duos half, duo map)
+{
+    const duo set = duos_dot(half, half);
+    const real map_a = d->a.posed ? of_a(map) : 1, map_b = d->b.posed ? of_b(map) : 1;
+    const real square = map_a * of_a(set) + map_b * of_b(set) + cc;
+    d->doubt = GLANCE_DOUBT * root(square);
+    return are_squares_plain(map_a, map_b, of_a(set), of_b(set), square);
+}
+
 /* Whether the first corner shows it, or else the axes, of two boxes, of which nothing more is known. */
 static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
     difference *d = &q->d;
     stay_outside(d, a, b);
-    const vec v = mul(d->c, -1), t = plain_direction(&d->a, d->c), s = plain_direction(&d->b, v);
-    const box *of_a = d->a.data, *of_b = d->b.data;
+    const vec v = mul(d->c, -1);
+    const duo_map m = duo_map_at(map_of(&d->a), map_of(&d->b));
+    const duos way = duos_pulled(&m, duos_of(d->c, v)), uu = squares_of_duo_map(&m);
+    const duos half = duos_at(((const box *)d->a.data)->half, ((const box *)d->b.data)->half);
     const real cc = dot(v, v);
-    gauge k;
-    vertex *p = &q->s.slot[0];
     start_glance(q, v);
-    if (!are_plain(cc, a, b) || !doubt_by_squares(d, cc, k.uu)) return UNCLEAR;
-    k.first = first_height(load(of_a->half), load(of_b->half), t, s, cc);
-    k.cc = cc;
-    if (!(k.first > 0)) {
-        k.t = t;
-        k.s = mul(s, -1);
+    if (!are_plain(cc, a, b) || !doubt_of_boxes(d, cc, half, duos_sum(uu))) return UNCLEAR;
+    const duo rest = duos_dot_size(half, way);
+    const real first = cc - (of_a(rest) + of_b(rest));
+    if (!(first > 0)) {
+        gauge k;
+        k.uu[0] = vec_of_a(uu);
+        k.uu[1] = vec_of_b(uu);
+        k.t = vec_of_a(way);
+        k.s = mul(vec_of_b(way), -1);
+        k.cc = cc;
+        k.first = first;
         return glance_along_axes(q, &k, max_steps, a, b, r);
     }
-    p->x = corner_of_box(of_a, t);
-    p->y = corner_of_box(of_b, s);
-    evidence e = corner_shown(d, v, p);
-    p->w = e.w;
-    return tell_evidence(q, &e, v, a, b, r) ? TELLING : IN_VAIN;
+    const duos x = duos_signed(half, way), at = duos_mapped(&m, x);
+    evidence e = {.a = vec_of_a(at), .b = vec_of_b(at), .w = corner_at_spots(d, at)};
+    e.height = dot(v, e.w);
+    if (tell_evidence(q, &e, v, a, b, r)) return TELLING;
+    q->s.slot[0] = (vertex){.x = vec_of_a(x), .y = vec_of_b(x), .w = e.w};
+    return IN_VAIN;
 }
 
 /* With the axes as they are, if they may be; and where that tells nothing, of length 1. Float leaves that to the

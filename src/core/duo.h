@@ -28,6 +28,12 @@ HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
     const __m128d mask = _mm_cmpgt_pd(x.c, y.c);
     return (duo){_mm_or_pd(_mm_and_pd(mask, v.c), _mm_andnot_pd(mask, w.c))};
 }
+/* As signed_as has it. */
+HOT duo duo_signed(duo x, duo y)
+{
+    const __m128d sign = _mm_and_pd(_mm_set1_pd(-0.0), _mm_add_pd(y.c, _mm_setzero_pd()));
+    return (duo){_mm_or_pd(x.c, sign)};
+}
 #elif HAS_LANES
 typedef struct duo {
     __m128 c; /* the first two */
@@ -48,6 +54,11 @@ HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
 {
     const __m128 mask = _mm_cmpgt_ps(x.c, y.c);
     return (duo){_mm_or_ps(_mm_and_ps(mask, v.c), _mm_andnot_ps(mask, w.c))};
+}
+HOT duo duo_signed(duo x, duo y)
+{
+    const __m128 sign = _mm_and_ps(_mm_set1_ps(-0.0f), _mm_add_ps(y.c, _mm_setzero_ps()));
+    return (duo){_mm_or_ps(x.c, sign)};
 }
 #else
 typedef struct duo {
@@ -70,6 +81,8 @@ HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
 {
     return duo_of(x.c[0] > y.c[0] ? v.c[0] : w.c[0], x.c[1] > y.c[1] ? v.c[1] : w.c[1]);
 }
+/* As signed_as has it. */
+HOT duo duo_signed(duo x, duo y) { return duo_of(signed_as(x.c[0], y.c[0]), signed_as(x.c[1], y.c[1])); }
 #endif
 
 HOT duo duo_both(real x) { return duo_of(x, x); }
@@ -144,6 +157,12 @@ HOT duos duos_where_larger(duo x, duo y, duos v, duos w)
     return v;
 }
 
+HOT duos duos_signed(duos x, duos y)
+{
+    EACH(x.c[i] = duo_signed(x.c[i], y.c[i]));
+    return x;
+}
+
 HOT duo duos_dot(duos x, duos y)
 {
     duo r = duo_mul(x.c[0], y.c[0]);
@@ -202,24 +221,50 @@ HOT duo duo_stretch(const duo_map *m)
     return r;
 }
 
+#if HAS_LANES && !REAL_IS_DOUBLE
+/* Four of each, one after another. */
+HOT void four_duos_at(const real *a, const real *b, duo *r)
+{
+    const __m128 x = _mm_loadu_ps(a), y = _mm_loadu_ps(b), low = _mm_unpacklo_ps(x, y), high = _mm_unpackhi_ps(x, y);
+    r[0].c = low;
+    r[1].c = _mm_movehl_ps(low, low);
+    r[2].c = high;
+    r[3].c = _mm_movehl_ps(high, high);
+}
+#else
+HOT void four_duos_at(const real *a, const real *b, duo *r)
+{
+    for (int i = 0; i < 4; i++) r[i] = duo_at(a + i, b + i);
+}
+#endif
+
 HOT duo_map duo_map_at(const real *a, const real *b)
 {
     duo_map r;
-    for (int i = 0; i < DIM * DIM; i++) r.c[i] = duo_at(a + i, b + i);
+    for (int i = 0; i < DIM * DIM / 4; i++) four_duos_at(a + 4 * i, b + 4 * i, r.c + 4 * i);
+    if (DIM > 2) r.c[DIM * DIM - 1] = duo_at(a + DIM * DIM - 1, b + DIM * DIM - 1);
     return r;
 }
 
-/* The sum of the squares of its entries. */
-HOT duo square_of_duo_map(const duo_map *m)
+/* The squares of its columns, and the sum of these. */
+HOT duos squares_of_duo_map(const duo_map *m)
 {
-    duo sum = duo_both(0);
+    duos r;
     for (int i = 0; i < DIM; i++) {
-        duo column = duo_mul(m->c[i], m->c[i]);
-        for (int j = 1; j < DIM; j++) column = duo_add(column, duo_mul(m->c[DIM * j + i], m->c[DIM * j + i]));
-        sum = i == 0 ? column : duo_add(sum, column);
+        r.c[i] = duo_mul(m->c[i], m->c[i]);
+        for (int j = 1; j < DIM; j++) r.c[i] = duo_add(r.c[i], duo_mul(m->c[DIM * j + i], m->c[DIM * j + i]));
     }
+    return r;
+}
+
+HOT duo duos_sum(duos x)
+{
+    duo sum = x.c[0];
+    REST(sum = duo_add(sum, x.c[i]));
     return sum;
 }
+
+HOT duo square_of_duo_map(const duo_map *m) { return duos_sum(squares_of_duo_map(m)); }
 
 /* The upper digits, big being a power of two above x times ROUNDING_TO them. */
 HOT duo upper_digits_of(duo x, duo big) { return duo_sub(duo_add(x, big), big); }
