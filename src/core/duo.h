@@ -276,4 +276,40 @@ HOT duo duo_lost(duo x, duo y, duo sum)
     return duo_add(duo_sub(x, duo_sub(sum, t)), duo_sub(y, t));
 }
 
+/* ---- to twice the digits: as exact.h has it ---- */
+
+typedef struct duo_twin {
+    duo high, low;
+} duo_twin;
+
+typedef struct duo_halves {
+    duo upper, lower;
+} duo_halves;
+
+HOT duo_twin duo_sum_of(duo x, duo y)
+{
+    const duo sum = duo_add(x, y);
+    return (duo_twin){sum, duo_lost(x, y, sum)};
+}
+
+HOT duo_halves duo_halves_of(duo x)
+{
+    const duo t = duo_mul(x, duo_both(SPLITTER)), upper = duo_sub(t, duo_sub(t, x));
+    return (duo_halves){upper, duo_sub(x, upper)};
+}
+
+HOT duo_twin duo_product_of_halves(duo x, duo_halves h, duo y, duo_halves k)
+{
+    const duo p = duo_mul(x, y), upper = duo_sub(duo_mul(h.upper, k.upper), p);
+    const duo mixed = duo_add(duo_add(upper, duo_mul(h.upper, k.lower)), duo_mul(h.lower, k.upper));
+    return (duo_twin){p, duo_add(mixed, duo_mul(h.lower, k.lower))};
+}
+
+HOT void duo_gather(duo_twin *sum, duo_twin x)
+{
+    const duo_twin s = duo_sum_of(sum->high, x.high);
+    sum->high = s.high;
+    sum->low = duo_add(sum->low, duo_add(s.low, x.low));
+}
+
 #endif

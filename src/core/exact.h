@@ -18,9 +18,10 @@ static inline twin sum_of(real a, real b)
 }
 
 /* The upper half of the digits; the rest fits into a half too. */
+#define SPLITTER ((real)((bits)1 << (MANTISSA + 2) / 2 | 1))
 static inline real upper_half(real a)
 {
-    real t = a * (real)((bits)1 << (MANTISSA + 2) / 2 | 1);
+    real t = a * SPLITTER;
     return t - (t - a);
 }
 

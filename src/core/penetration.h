@@ -8,8 +8,7 @@
 #ifndef GJK_CORE_PENETRATION_H
 #define GJK_CORE_PENETRATION_H
 
-#include "listed.h"
-#include "polytope.h"
+#include "heights.h"
 #include "dip.h"
 #include "tight.h"
 
@@ -18,20 +17,6 @@ typedef struct tally {
     int facets, proven;
     real least, certain, doubtful;
 } tally;
-
-/* A coordinate of a direction, to twice the digits; h: the halves of its high. */
-typedef struct slope {
-    real high, low;
-    halves h;
-} slope;
-
-/* What heights along a direction are made of. */
-typedef struct outlook {
-    vec n;                /* unit to rounding; 0: none yet */
-    slope a[DIM], b[DIM]; /* n as A sees it, and -n as B does */
-    twin apart;           /* the height of -c along n */
-    real excess;          /* of |n| above 1 */
-} outlook;
 
 /* Where the heights of round sets are least nearby. */
 #define MOST_DIPS 4
@@ -98,174 +83,24 @@ static int ask_along(depth *d, vec n, tip *t)
 
 /* ---- heights without rounding, of known corners ---- */
 
-/* n as the body sees it; h: its halves. */
-static inline void turned(const body *k, vec n, const halves h[DIM], slope g[DIM])
-{
-    if (!k->posed) {
-        for (int j = 0; j < DIM; j++) g[j] = (slope){n.c[j], 0, h[j]};
-        return;
-    }
-    for (int j = 0; j < DIM; j++) {
-        twin t = product_of_halves(k->m[j], halves_of(k->m[j]), n.c[0], h[0]);
-        for (int i = 1; i < DIM; i++) {
-            real m = k->m[DIM * i + j];
-            gather(&t, product_of_halves(m, halves_of(m), n.c[i], h[i]));
-        }
-        g[j] = (slope){t.high, t.low, halves_of(t.high)};
-    }
-}
-
-/* How high the point c stands along g. */
-static inline twin height_along(const slope g[DIM], vec c)
-{
-    twin h = {0, 0};
-    for (int j = 0; j < DIM; j++) {
-        twin p = product_of_halves(g[j].high, g[j].h, c.c[j], halves_of(c.c[j]));
-        p.low += g[j].low * c.c[j];
-        if (j == 0) h = p;
-        else gather(&h, p);
-    }
-    return sum_of(h.high, h.low);
-}
-
-/* A set's corners, but a box's, one after the other. */
-static list corners_of(const shape *s)
-{
-    static const real none[DIM];
-    const points *p = s->data;
-    if (s->support == pub(support_points)) return list_of_cloud(p);
-    return (list){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM, 0, NULL};
-}
-
-/* Corners that may be the highest. */
-#define HELD 8
-typedef struct held {
-    const real *at[HELD];
-    real about[HELD];
-    int n;
-} held;
-
-static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.high == k.high && h.low < k.low); }
-
-/* Which of these is the highest along g in truth, the first of equals; those that are about lower than least are not.
- * It is the only one that is held then. */
-static twin settle_held(held *s, const slope g[DIM], real grain, real least)
-{
-    twin most = {-REAL_MAX, 0};
-    int best = 0;
-    for (int k = 0; k < s->n; k++) {
-        if (s->about[k] < least) continue;
-        twin h = height_along(g, mul(load(s->at[k]), grain));
-        if (!is_lower_twin(most, h)) continue;
-        most = h;
-        best = k;
-    }
-    s->at[0] = s->at[best];
-    s->about[0] = s->about[best];
-    s->n = 1;
-    return most;
-}
-
-/* Of long lists runs of points that are all lower than that are passed over: how many, from at on. */
-static inline size_t lower_runs(const list *l, const real *at, size_t left, vec n, real least)
-{
-    const lanes most = in_all(least);
-    const ways way = ways_of(n);
-    lanes none = in_all(0);
-    size_t k = 0;
-    while (k + RUN < left && !any_as_large(highest_in_run(at + k * l->step, l->step, &way, &none), most)) k += RUN;
-    return k;
-}
-
-/* Of the body's corners the one farthest along g, and its height from the body's own origin. Rounded heights tell which
- * it can't be. near: a corner that is about as far, if one is known. */
-static twin farthest_corner(const body *k, const shape *s, const slope g[DIM], const vec *near, vec *x)
-{
-    vec rough;
-    const real grain = k->grain;
-    EACH(rough.c[i] = g[i].high + g[i].low);
-    if (is_box(s)) {
-        *x = box_corner(s, rough);
-        return height_along(g, mul(*x, grain));
-    }
-    const list l = corners_of(s);
-    const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
-    const int many = l.count >= MANY && !unruly(grain);
-    real least = near ? dot(mul(*near, grain), rough) - margin : -REAL_MAX;
-    size_t i = 0;
-    held some;
-    some.n = 0;
-    some.at[0] = at;
-    while (i < l.count) {
-        const size_t lower = many ? lower_runs(&l, at, l.count - i, mul(rough, grain), least) : 0;
-        const size_t end = many && l.count - i - lower > RUN ? i + lower + RUN : l.count;
-        for (i += lower, at += lower * l.step; i < end; i++, at += l.step) {
-            real about = dot(mul(load(at), grain), rough);
-            if (about < least) continue;
-            least = larger(about - margin, least);
-            if (some.n == HELD) settle_held(&some, g, grain, least);
-            some.at[some.n] = at;
-            some.about[some.n++] = about;
-        }
-    }
-    twin most = settle_held(&some, g, grain, least);
-    *x = load(some.at[0]);
-    return most;
-}
-
-/* Looks along a unit n: what its heights are made of. */
-static void look_along(depth *d, vec n)
-{
-    const difference *f = &d->q->d;
-    outlook *s = &d->sight;
-    halves h[DIM], back[DIM];
-    twin square = {-1, 0}, apart = {0, 0};
-    if (same(n, s->n)) return;
-    for (int i = 0; i < DIM; i++) {
-        h[i] = halves_of(n.c[i]);
-        back[i] = (halves){-h[i].upper, -h[i].lower};
-        gather(&square, product_of_halves(n.c[i], h[i], n.c[i], h[i]));
-        gather(&apart, product_of_halves(-n.c[i], back[i], f->c.c[i], halves_of(f->c.c[i])));
-        apart.low -= n.c[i] * f->c_low.c[i];
-    }
-    s->n = n;
-    turned(&f->a, n, h, s->a);
-    turned(&f->b, mul(n, -1), back, s->b);
-    s->apart = apart;
-    s->excess = (square.high + square.low) / 2;
-}
-
-/* The height of A - B's points x - y, of these heights along what is looked along. */
-static inline twin height_between(const outlook *s, twin x, twin y)
-{
-    twin h = x;
-    gather(&h, y);
-    gather(&h, s->apart);
-    return sum_of(h.high, h.low - h.high * s->excess);
-}
-
 /* The height of A - B along n, and the corner there: its x and y. near: one that is about as far, if any is known. */
 static twin fine_height(depth *d, vec n, const tip *near, vertex *c)
 {
     const difference *f = &d->q->d;
-    look_along(d, n);
-    twin x = farthest_corner(&f->a, d->a, d->sight.a, near ? &near->x : NULL, &c->x);
-    return height_between(&d->sight, x, farthest_corner(&f->b, d->b, d->sight.b, near ? &near->y : NULL, &c->y));
+    look_along(&d->sight, f, n);
+    c->x = farthest_corner(&d->sight, &f->a, d->a, of_a, near ? &near->x : NULL);
+    c->y = farthest_corner(&d->sight, &f->b, d->b, of_b, near ? &near->y : NULL);
+    return height_at(&d->sight, f, c->x, c->y);
 }
 
 /* The least height of the facet's corners, along its normal, which is looked along. */
 static twin floor_seen(const depth *d, const facet *f)
 {
-    const difference *of = &d->q->d;
-    const tip *last = NULL;
-    twin least = {REAL_MAX, 0}, x = least, y = least;
+    twin least = {REAL_MAX, 0};
     for (int k = 0; k < DIM; k++) {
         const tip *t = &d->p.tip[f->v[k]];
-        if (!last || !same(t->x, last->x)) x = height_along(d->sight.a, mul(t->x, of->a.grain));
-        if (!last || !same(t->y, last->y)) y = height_along(d->sight.b, mul(t->y, of->b.grain));
-        twin h = height_between(&d->sight, x, y);
+        const twin h = height_at(&d->sight, &d->q->d, t->x, t->y);
         if (is_lower_twin(h, least)) least = h;
-        last = t;
     }
     return least;
 }
@@ -293,70 +128,12 @@ static twin fine_floor(const polytope *p, const facet *f, vec n)
     return sum_of(least.high, least.low - least.high * excess(n));
 }
 
-/* ---- normals of known corners ---- */
-
-/* Adds sign times the way from one point of the body to another, as the frame sees it: what is added rounds itself, not
- * as the points do. No bound depends on it. */
-static inline void add_way(const body *k, real sign, vec from, vec to, vec *way, vec *rest)
-{
-    vec x, low, up, here, lost;
-    if (same(from, to)) return;
-    for (int i = 0; i < DIM; i++) {
-        twin t = sum_of(to.c[i], -from.c[i]);
-        x.c[i] = t.high * (sign * k->grain);
-        low.c[i] = t.low * (sign * k->grain);
-    }
-    here = x;
-    lost = low;
-    if (k->posed) {
-        const real of_map = 2 / leveler(k->norm), of_way = 4 / leveler(k->reach * k->grain);
-        EACH(up.c[i] = upper_digits(x.c[i], of_way));
-        low = add(sub(x, up), low);
-        for (int row = 0; row < DIM; row++) {
-            vec m = load(k->m + DIM * row), m_up;
-            EACH(m_up.c[i] = upper_digits(m.c[i], of_map));
-            here.c[row] = dot(m_up, up);
-            lost.c[row] = dot(m_up, low) + dot(sub(m, m_up), x);
-        }
-    }
-    for (int i = 0; i < DIM; i++) {
-        twin t = sum_of(way->c[i], here.c[i]);
-        way->c[i] = t.high;
-        rest->c[i] += t.low + lost.c[i];
-    }
-}
-
-/* From tip to tip, as the bodies' own points say: without what their corners' sums round. */
-static inline vec own_way(const depth *d, const tip *from, const tip *to)
-{
-    vec way = axis(0, 0), rest = way;
-    add_way(&d->q->d.a, 1, from->x, to->x, &way, &rest);
-    add_way(&d->q->d.b, -1, from->y, to->y, &way, &rest);
-    return add(way, rest);
-}
-
-/* The unit normal of the facet between these tips, which is not thin, without what their corners round. */
-static vec own_normal(const depth *d, const tip *const t[DIM])
-{
-#if DIM == 2
-    vec e = own_way(d, t[0], t[1]), n = {{e.c[1], -e.c[0]}};
-#else
-    /* from the two shorter edges, which meet in corner k */
-    vec e[3];
-    for (int i = 0; i < 3; i++) e[i] = way_to(t[i], t[i == 2 ? 0 : i + 1]);
-    const real s0 = dot(e[0], e[0]), s1 = dot(e[1], e[1]), s2 = dot(e[2], e[2]);
-    const int k = s0 >= s1 && s0 >= s2 ? 2 : s1 >= s2 ? 0 : 1;
-    vec n = cross(own_way(d, t[k], t[(k + 1) % 3]), own_way(d, t[k], t[(k + 2) % 3]));
-#endif
-    return mul(n, 1 / length(n));
-}
-
 /* Places a rough facet to all digits: its normal is its own, rounded; its height is rough. */
 static void polish_facet(depth *d, facet *f)
 {
     const tip *t[DIM];
     for (int i = 0; i < DIM; i++) t[i] = &d->p.tip[f->v[i]];
-    f->n = own_normal(d, t);
+    f->n = own_normal(&d->q->d, t);
     f->height = dot(f->n, t[0]->w);
     for (int i = 1; i < DIM; i++) f->height = smaller(dot(f->n, t[i]->w), f->height);
     f->rough = POLISHED;
@@ -403,7 +180,7 @@ static int is_contact(depth *d)
         own[i] = tip_of(corner(s, i));
         t[i] = &own[i];
     }
-    vec n = own_normal(d, t);
+    vec n = own_normal(&d->q->d, t);
     if (dot(n, d->q->d.c) < 0) n = mul(n, -1);
     return is_flush(d, n) || is_flush(d, mul(n, -1));
 }

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT */
+/* Heights of A - B along a direction, of known corners, to twice the digits: of both bodies side by side. And a facet's
+ * normal, without what its corners' sums round. */
+#ifndef GJK_CORE_HEIGHTS_H
+#define GJK_CORE_HEIGHTS_H
+
+#include "listed.h"
+#include "polytope.h"
+
+/* What heights along a direction are made of. */
+typedef struct outlook {
+    vec n;             /* unit to rounding; 0: none yet */
+    duos high, low;    /* n as A sees it, and -n as B does, to twice the digits, */
+    duo_halves h[DIM]; /* and the halves of high */
+    twin apart;        /* the height of -c along n */
+    real excess;       /* of |n| above 1 */
+} outlook;
+
+/* Looks along a unit n: what its heights are made of. */
+static void look_along(outlook *s, const difference *d, vec n)
+{
+    const duos both = duos_of(n, mul(n, -1));
+    duo_halves h[DIM];
+    twin square = {-1, 0}, apart = {0, 0};
+    if (same(n, s->n)) return;
+    for (int i = 0; i < DIM; i++) {
+        h[i] = duo_halves_of(both.c[i]);
+        const halves own = {of_a(h[i].upper), of_a(h[i].lower)}, back = {-own.upper, -own.lower};
+        gather(&square, product_of_halves(n.c[i], own, n.c[i], own));
+        gather(&apart, product_of_halves(-n.c[i], back, d->c.c[i], halves_of(d->c.c[i])));
+        apart.low -= n.c[i] * d->c_low.c[i];
+    }
+    for (int j = 0; j < DIM; j++) {
+        duo_twin t = duo_product_of_halves(d->maps.c[j], duo_halves_of(d->maps.c[j]), both.c[0], h[0]);
+        for (int i = 1; i < DIM; i++) {
+            const duo m = d->maps.c[DIM * i + j];
+            duo_gather(&t, duo_product_of_halves(m, duo_halves_of(m), both.c[i], h[i]));
+        }
+        s->high.c[j] = t.high;
+        s->low.c[j] = t.low;
+        s->h[j] = duo_halves_of(t.high);
+    }
+    s->n = n;
+    s->apart = apart;
+    s->excess = (square.high + square.low) / 2;
+}
+
+/* How high a point of each stands, times their grain, from the bodies' own origins. */
+HOT duo_twin heights_of(const outlook *s, duos x)
+{
+    duo_twin h = {duo_both(0), duo_both(0)};
+    for (int j = 0; j < DIM; j++) {
+        duo_twin p = duo_product_of_halves(s->high.c[j], s->h[j], x.c[j], duo_halves_of(x.c[j]));
+        p.low = duo_add(p.low, duo_mul(s->low.c[j], x.c[j]));
+        if (j == 0) h = p;
+        else duo_gather(&h, p);
+    }
+    return duo_sum_of(h.high, h.low);
+}
+
+/* The height of A - B's point x - y. */
+HOT twin height_at(const outlook *s, const difference *d, vec x, vec y)
+{
+    const duo_twin both = heights_of(s, duos_mul(duos_of(x, y), d->grains));
+    twin h = {of_a(both.high), of_a(both.low)};
+    gather(&h, (twin){of_b(both.high), of_b(both.low)});
+    gather(&h, s->apart);
+    return sum_of(h.high, h.low - h.high * s->excess);
+}
+
+/* ---- the farthest corner ---- */
+
+/* A set's corners, but a box's, one after the other. */
+static list corners_of(const shape *s)
+{
+    static const real none[DIM];
+    const points *p = s->data;
+    if (s->support == pub(support_points)) return list_of_cloud(p);
+    return (list){s->support == pub(support_origin) ? none : s->data, count_corners(s), DIM, 0, NULL};
+}
+
+/* Corners that may be the highest. */
+#define HELD 8
+typedef struct held {
+    const real *at[HELD];
+    real about[HELD];
+    int n;
+} held;
+
+static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.high == k.high && h.low < k.low); }
+
+/* Which of these is the highest in truth, the first of equals; those that are about lower than least are not. It is the
+ * only one that is held then. The body is the one whose numbers of takes out of two side by side. */
+static void settle_held(held *s, const outlook *o, real (*of)(duo), real grain, real least)
+{
+    twin most = {-REAL_MAX, 0};
+    int left = 0;
+    for (int k = 0; k < s->n; k++) {
+        if (s->about[k] < least) continue;
+        s->at[left] = s->at[k];
+        s->about[left++] = s->about[k];
+    }
+    s->n = 1;
+    for (int k = 0; k < left && left > 1; k++) {
+        const duo_twin both = heights_of(o, duos_both(mul(load(s->at[k]), grain)));
+        const twin h = {of(both.high), of(both.low)};
+        if (!is_lower_twin(most, h)) continue;
+        most = h;
+        s->at[0] = s->at[k];
+        s->about[0] = s->about[k];
+    }
+}
+
+/* Of long lists runs of points that are all lower than that are passed over: how many, from at on. */
+static inline size_t lower_runs(const list *l, const real *at, size_t left, vec n, real least)
+{
+    const lanes most = in_all(least);
+    const ways way = ways_of(n);
+    lanes none = in_all(0);
+    size_t k = 0;
+    while (k + RUN < left && !any_as_large(highest_in_run(at + k * l->step, l->step, &way, &none), most)) k += RUN;
+    return k;
+}
+
+/* Of the body's corners the one farthest along the way looked along, as settle_held has it. Rounded heights tell which
+ * it can't be. near: a corner that is about as far, if one is known. */
+static vec farthest_corner(const outlook *o, const body *k, const shape *s, real (*of)(duo), const vec *near)
+{
+    vec rough;
+    const real grain = k->grain;
+    EACH(rough.c[i] = of(duo_add(o->high.c[i], o->low.c[i])));
+    if (is_box(s)) return box_corner(s, rough);
+    const list l = corners_of(s);
+    const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
+    const int many = l.count >= MANY && !unruly(grain);
+    real least = near ? dot(mul(*near, grain), rough) - margin : -REAL_MAX;
+    size_t i = 0;
+    held some;
+    some.n = 0;
+    some.at[0] = at;
+    while (i < l.count) {
+        const size_t lower = many ? lower_runs(&l, at, l.count - i, mul(rough, grain), least) : 0;
+        const size_t end = many && l.count - i - lower > RUN ? i + lower + RUN : l.count;
+        for (i += lower, at += lower * l.step; i < end; i++, at += l.step) {
+            real about = dot(mul(load(at), grain), rough);
+            if (about < least) continue;
+            least = larger(about - margin, least);
+            if (some.n == HELD) settle_held(&some, o, of, grain, least);
+            some.at[some.n] = at;
+            some.about[some.n++] = about;
+        }
+    }
+    settle_held(&some, o, of, grain, least);
+    return load(some.at[0]);
+}
+
+/* ---- a facet's normal ---- */
+
+/* For the upper digits of maps and of the ways within the bodies. */
+typedef struct grids {
+    duo of_map, of_way;
+} grids;
+
+static inline real grid_of_way(const body *k) { return 4 / leveler(k->reach * k->grain) * ROUNDING_TO(GRID); }
+
+static inline grids grids_of(const difference *d)
+{
+    return (grids){duo_of(2 / leveler(d->a.norm) * ROUNDING_TO(GRID), 2 / leveler(d->b.norm) * ROUNDING_TO(GRID)),
+                   duo_of(grid_of_way(&d->a), grid_of_way(&d->b))};
+}
+
+/* From a tip to another, as the bodies' own points say: what is added rounds itself, not as the points do. No bound
+ * depends on it. */
+static vec own_way(const difference *d, const grids *g, const tip *from, const tip *to)
+{
+    const duo by = duo_mul(d->grains, duo_of(1, -1));
+    duos x, up, low;
+    vec way;
+    for (int i = 0; i < DIM; i++) {
+        const duo start = duo_at(from->x.c + i, from->y.c + i);
+        const duo_twin t = duo_sum_of(duo_at(to->x.c + i, to->y.c + i), duo_sub(duo_both(0), start));
+        x.c[i] = duo_mul(t.high, by);
+        up.c[i] = upper_digits_of(x.c[i], g->of_way);
+        low.c[i] = duo_add(duo_sub(x.c[i], up.c[i]), duo_mul(t.low, by));
+    }
+    for (int row = 0; row < DIM; row++) {
+        const duos m = row_of_map(&d->maps, row);
+        duos m_up;
+        EACH(m_up.c[i] = upper_digits_of(m.c[i], g->of_map));
+        const duo here = duos_dot(m_up, up), lost = duo_add(duos_dot(m_up, low), duos_dot(duos_sub(m, m_up), x));
+        const twin sum = sum_of(of_a(here), of_b(here));
+        way.c[row] = sum.high + (of_a(lost) + (sum.low + of_b(lost)));
+    }
+    return way;
+}
+
+/* The unit normal of the facet between these tips, which is not thin, without what their corners round. */
+static vec own_normal(const difference *d, const tip *const t[DIM])
+{
+    const grids g = grids_of(d);
+#if DIM == 2
+    vec e = own_way(d, &g, t[0], t[1]), n = {{e.c[1], -e.c[0]}};
+#else
+    /* from the two shorter edges, which meet in corner k */
+    vec e[3];
+    for (int i = 0; i < 3; i++) e[i] = way_to(t[i], t[i == 2 ? 0 : i + 1]);
+    const real s0 = dot(e[0], e[0]), s1 = dot(e[1], e[1]), s2 = dot(e[2], e[2]);
+    const int k = s0 >= s1 && s0 >= s2 ? 2 : s1 >= s2 ? 0 : 1;
+    vec n = cross(own_way(d, &g, t[k], t[(k + 1) % 3]), own_way(d, &g, t[k], t[(k + 2) % 3]));
+#endif
+    return mul(n, 1 / length(n));
+}
+
+#endif
