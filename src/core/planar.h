@@ -132,8 +132,9 @@ static APART int look_in_full(search *q, cache *own, int framed, const shape *a,
 HOT int settle_outside(difference *d, const shape *a, const shape *b)
 {
     real map[2];
+    duos uu;
     stay_outside(d, a, b);
-    if (!doubt_outside(d, a, b, square_of_reach(&d->a, 1, 1), square_of_reach(&d->b, 1, 1), PLANAR_DOUBT, map))
+    if (!doubt_outside(d, a, b, square_of_reach(&d->a, 1, 1), square_of_reach(&d->b, 1, 1), PLANAR_DOUBT, map, &uu))
         return 0;
     d->a.norm = root(map[0]);
     d->b.norm = root(map[1]);

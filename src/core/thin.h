@@ -230,14 +230,14 @@ static inline int way_out(vec x, vec e)
     return out;
 }
 
-static inline vista look_from_box(const difference *d, real level)
+static inline vista look_from_box(const difference *d, real level, vec uu)
 {
     const int of_a = d->a.asked == AS_BOX;
     vista k = {.box = of_a ? &d->a : &d->b, .other = of_a ? &d->b : &d->a, .level = level, .out = -1};
     k.point = mul(first_end(k.other), k.other->grain);
     k.at = of_a ? add(mapped(k.other, k.point), d->c) : sub(mapped(k.other, k.point), d->c);
     k.half = mul(load(((const box *)k.box->data)->half), k.box->grain);
-    k.uu = squared_axes(k.box, level);
+    k.uu = uu;
     const vec seen = k.box->posed ? pull(k.box->m, mul(k.at, level)) : k.at;
     EACH(k.x.c[i] = seen.c[i] * level / k.uu.c[i]);
     if (same(clamped(k.x, k.half), k.x) && room_at(k.x, k.half) > 0) k.out = way_out(k.x, k.half);
@@ -296,20 +296,19 @@ static inline void sight_way_out(const vista *k, real toward, sight_of_two *e)
     e->l = length(e->v);
 }
 
-static inline void sight_box(const difference *d, const goal *g, real level, sight_of_two *e)
+static inline void sight_box(const difference *d, const goal *g, real level, vec uu, sight_of_two *e)
 {
-    vista k = look_from_box(d, level);
+    vista k = look_from_box(d, level, uu);
     const int of_a = k.box == &d->a, leaves = k.out >= 0 && g->deep;
     const real toward = of_a ? -1 : 1; /* the box, along v */
     vec foot = clamped(k.x, k.half);
     if (leaves) foot.c[k.out] = signed_as(k.half.c[k.out], k.x.c[k.out]);
-    const duo_map maps = duo_map_at(map_of(&d->a), map_of(&d->b));
-    const spots pair = spots_at(d, &maps, duos_of(of_a ? foot : k.point, of_a ? k.point : foot));
+    const spots pair = spots_at(d, &d->maps, duos_of(of_a ? foot : k.point, of_a ? k.point : foot));
     e->a = vec_of_a(pair.at);
     e->b = vec_of_b(pair.at);
     e->inside = k.out >= 0;
     e->w = pair.w;
-    e->low = lost_of_spots(d, &maps, &pair);
+    e->low = lost_of_spots(d, &d->maps, &pair);
     e->v = add(e->w, e->low);
     e->l = length(e->v);
     if (e->inside) sight_way_out(&k, toward, e);
@@ -391,10 +390,12 @@ HOT int tell_sticks(const difference *d, const sticks *k, const shape *a, const 
     return tell_sight(d, &e, a, b, g, r);
 }
 
-HOT int tell_point_and_box(const difference *d, real level, const shape *a, const shape *b, const goal *g, result *r)
+/* uu: the squares of the box's axes, its map times that level. */
+HOT int tell_point_and_box(const difference *d, real level, vec uu, const shape *a, const shape *b, const goal *g,
+                           result *r)
 {
     sight_of_two e;
-    sight_box(d, g, level, &e);
+    sight_box(d, g, level, uu, &e);
     return tell_sight(d, &e, a, b, g, r);
 }
 
@@ -427,11 +428,15 @@ HOT int are_of_plain_size(real square, const shape *a, const shape *b)
 }
 
 /* The doubt without a frame, in units of the root of A^2 + B^2 + c^2, of sets whose squared reaches are these; and the
- * squares of the maps. 0: the sizes are none to do without. */
-HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a, real set_b, real unit, real map[2])
+ * squares of the maps and of their axes. 0: the sizes are none to do without. */
+HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a, real set_b, real unit, real map[2],
+                      duos *uu)
 {
-    map[0] = square_of_map(&d->a, squared_axes(&d->a, 1));
-    map[1] = square_of_map(&d->b, squared_axes(&d->b, 1));
+    lay_maps(d);
+    *uu = squares_of_duo_map(&d->maps);
+    const duo whole = duos_sum(*uu);
+    map[0] = d->a.posed ? of_a(whole) : 1;
+    map[1] = d->b.posed ? of_b(whole) : 1;
     const real square = map[0] * set_a + map[1] * set_b + dot(d->c, d->c);
     d->doubt = unit * root(square);
     return is_of_plain_size(&d->a, map[0], set_a) && is_of_plain_size(&d->b, map[1], set_b) &&
@@ -464,15 +469,27 @@ static APART enum glanced tell_sticks_outside(difference *d, const shape *a, con
     return tell_sticks(d, &k, a, b, g, r) ? TELLING : IN_VAIN;
 }
 
+/* None of these squares has lost digits to underflow. */
+HOT int are_whole_squares(vec uu)
+{
+    int r = 1;
+    EACH(r &= uu.c[i] > REAL_MIN / (UNIT * UNIT));
+    return r;
+}
+
 static APART enum glanced tell_box_outside(difference *d, const shape *a, const shape *b, const goal *g, result *r)
 {
     real map[2];
-    if (!doubt_outside(d, a, b, square_of_thin(&d->a, 1, 1), square_of_thin(&d->b, 1, 1), GLANCE_DOUBT, map))
+    duos both;
+    if (!doubt_outside(d, a, b, square_of_thin(&d->a, 1, 1), square_of_thin(&d->b, 1, 1), GLANCE_DOUBT, map, &both))
         return UNCLEAR;
     know_norms(d, root(map[0]), root(map[1]));
     d->c_low = offset_low(a->pose, b->pose);
-    const real level = leveler(root(map[d->b.asked == AS_BOX]));
-    return tell_point_and_box(d, level, a, b, g, r) ? TELLING : IN_VAIN;
+    const int of_second = d->b.asked == AS_BOX;
+    const vec uu = of_second ? vec_of_b(both) : vec_of_a(both);
+    const real level = leveler(of_second ? d->b.norm : d->a.norm);
+    if (!are_whole_squares(uu)) return UNCLEAR;
+    return tell_point_and_box(d, level, mul(uu, level * level), a, b, g, r) ? TELLING : IN_VAIN;
 }
 
 #endif

@@ -38,7 +38,7 @@ static APART int tell_thin_in_frame(difference *d, const shape *a, const shape *
     know_offset(d, a, b);
     sticks k;
     if (!boxed) place_sticks(d, duo_of(d->a.grain, d->b.grain), 1, &k);
-    if (boxed ? tell_point_and_box(d, level, a, b, g, r) : tell_sticks(d, &k, a, b, g, r)) return 1;
+    if (boxed ? tell_point_and_box(d, level, of_a ? uu_a : uu_b, a, b, g, r) : tell_sticks(d, &k, a, b, g, r)) return 1;
     *d = before;
     return 0;
 }
