@@ -319,6 +319,45 @@ static void edit_box(void)
     p.a.set.box.half[1] = 2;
 }
 
+/* A box and a sheet, whose map is so large where the sheet has no width that in the search's frame both are as small as
+ * nothing: squares of lengths there underflow. Lent corners prove no more than others. */
+static void of_a_sheet_mapped_far(void **state)
+{
+    long warm_starts = 0;
+    (void)state;
+    for (uint64_t i = 0; i < 20000; i++) {
+        draws d = draws_from(6, 12, i);
+        const int flat = below(&d, DIM);
+        const double far = ldexp(1, sizeof(real) > 4 ? 200 + below(&d, 300) : 30 + below(&d, 30));
+        V(options) o = default_options();
+        V(result) warm, cold;
+        start_body(&p.a, BOX);
+        start_body(&p.b, BOX);
+        for (int k = 0; k < DIM; k++) {
+            p.a.half[k] = (real)between(&d, 0.3, 1);
+            p.b.half[k] = k == flat ? 0 : (real)between(&d, 0.3, 1);
+            p.b.pose.p[k] = (real)between(&d, -0.7, 0.7);
+        }
+        turn(&d, &p.b, 100);
+        for (int k = 0; k < DIM; k++) {
+            p.b.pose.m[DIM * k + flat] *= (real)far;
+        }
+        bind_pair(&p);
+        start_cache();
+        o.cache = &cache;
+        for (int step = 0; step < 3; step++) {
+            warm_starts += cache.count > DIM;
+            assert_true(V(penetration)(&p.a.shape, &p.b.shape, &o, &warm) >= 0);
+            assert_true(V(penetration)(&p.a.shape, &p.b.shape, NULL, &cold) >= 0);
+            assert_true(agree(&warm, &cold));
+            for (int k = 0; k < DIM; k++) {
+                p.b.pose.p[k] += (real)between(&d, -0.1, 0.1);
+            }
+        }
+    }
+    assert_true(warm_starts > 100);
+}
+
 /* A box, so that its reach stays and no corner does; beside another, or a hull. */
 static void of_a_box_edited(void **state)
 {
@@ -672,6 +711,7 @@ int main(void)
         cmocka_unit_test(of_garbage),
         cmocka_unit_test(after_errors),
         cmocka_unit_test(of_a_cloud_edited),
+        cmocka_unit_test(of_a_sheet_mapped_far),
         cmocka_unit_test(of_a_box_edited),
         cmocka_unit_test(of_points_edited),
 #if DIM == 2

@@ -161,9 +161,9 @@ typedef struct gjk3f_indexed_points {
 } gjk3f_indexed_points;
 /* Makes the index of cloud->points, whose reach is that of gjk3f_points_reach or larger, in memory of so many bytes,
  * aligned for a uint32_t, and gives it to the cloud if it fits there; if not, the cloud has none. Returns how many
- * bytes it takes: ask with NULL and 0 first. Of points on a ball they are 17 to 26 a point, of others 80 at most, and
- * 100 besides. 0: the points are bad, more than 2^25, or farther out than the largest number / 8; their reach is not
- * known, or less than that; or the memory is not aligned. */
+ * bytes it takes: ask with NULL and 0 first. Of 200 and more on a ball they are 17 to 24 a point, of others 80 at most,
+ * and 100 besides. 0: the points are bad, more than 2^25, or farther out than the largest number / 8; their reach is
+ * not known, or less than that; or the memory is not aligned. */
 GJK_API size_t gjk3f_index_points(gjk3f_indexed_points *cloud, void *memory, size_t bytes);
 
 /* |x| <= half[0], |y| <= half[1], |z| <= half[2] */

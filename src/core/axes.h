@@ -520,7 +520,9 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
         return glance_along_axes(q, &k, max_steps, a, b, r);
     }
     const duos x = duos_signed(half, way), at = duos_mapped(&m, x);
-    evidence e = {.a = vec_of_a(at), .b = vec_of_b(at), .w = corner_at_spots(d, at)};
+    evidence e = {.w = corner_at_spots(d, at)};
+    e.a = vec_of_a(d->a.posed ? at : x); /* as it is, signs of zeros included, where no map is */
+    e.b = vec_of_b(d->b.posed ? at : x);
     e.height = dot(v, e.w);
     if (tell_evidence(q, &e, v, a, b, r)) return TELLING;
     q->s.slot[0] = (vertex){.x = vec_of_a(x), .y = vec_of_b(x), .w = e.w};

@@ -90,6 +90,13 @@ static inline real dot_size(vec a, vec b)
 
 static inline real length(vec a) { return root(dot(a, a)); }
 
+/* The same for a divisor of what is proven: where the square has lost digits to underflow, as large as can be. */
+static inline real length_or_more(vec a)
+{
+    const real aa = dot(a, a);
+    return aa > REAL_MIN / UNIT ? root(aa) : REAL_MAX;
+}
+
 /* Sum of sizes, at least the length, and safe from under- and overflow where the length is not. */
 HOT real spread(vec a)
 {

@@ -74,9 +74,9 @@ static inline real rough_room(const simplex *s, const real weight[3])
 {
     vec p = point(s, 0), q = point(s, 1), r = point(s, 2);
     real far = larger(dot(p, p), larger(dot(q, q), dot(r, r))), doubt = 4 * UNIT * far;
-    real least = (weight[0] - doubt) / length(sub(r, q));
-    least = smaller((weight[1] - doubt) / length(sub(p, r)), least);
-    return smaller((weight[2] - doubt) / length(sub(q, p)), least) * (1 - 8 * UNIT);
+    real least = (weight[0] - doubt) / length_or_more(sub(r, q));
+    least = smaller((weight[1] - doubt) / length_or_more(sub(p, r)), least);
+    return smaller((weight[2] - doubt) / length_or_more(sub(q, p)), least) * (1 - 8 * UNIT);
 }
 
 static real room(const simplex *s)
@@ -84,7 +84,7 @@ static real room(const simplex *s)
     real least = REAL_MAX;
     for (int i = 0; i < 3; i++) {
         vec p = point(s, i), e = sub(point(s, (i + 1) % 3), p), f = sub(point(s, (i + 2) % 3), p);
-        real inside = cross(p, e), third = cross(e, f), l = length(e);
+        real inside = cross(p, e), third = cross(e, f), l = length_or_more(e);
         if (third < 0) inside = -inside;
         /* each product's operands carry a rounding of their own */
         real doubt = 4 * UNIT * l * (length(p) + length(f));

@@ -190,10 +190,10 @@ static inline real rough_room(const simplex *s, const real weight[4])
     real far = dot(p, p);
     for (int i = 0; i < 3; i++) far = larger(dot(point(s, i), point(s, i)), far);
     real doubt = 128 * UNIT * far * root(far); /* docs/bounds.md */
-    real least = (weight[0] - doubt) / length(bc);
-    least = smaller((weight[1] - doubt) / length(ca), least);
-    least = smaller((weight[2] - doubt) / length(ab), least);
-    return smaller((weight[3] - doubt) / length(last), least) * (1 - 8 * UNIT);
+    real least = (weight[0] - doubt) / length_or_more(bc);
+    least = smaller((weight[1] - doubt) / length_or_more(ca), least);
+    least = smaller((weight[2] - doubt) / length_or_more(ab), least);
+    return smaller((weight[3] - doubt) / length_or_more(last), least) * (1 - 8 * UNIT);
 }
 
 static real room(const simplex *s)
@@ -202,7 +202,7 @@ static real room(const simplex *s)
     for (int i = 0; i < 4; i++) {
         vec p = point(s, i), a = sub(point(s, (i + 1) % 4), p), b = sub(point(s, (i + 2) % 4), p);
         vec n = cross(a, b), f = sub(point(s, (i + 3) % 4), p);
-        real inside = -dot(n, p), fourth = dot(n, f), l = length(n);
+        real inside = -dot(n, p), fourth = dot(n, f), l = length_or_more(n);
         if (fourth < 0) inside = -inside;
         /* docs/bounds.md: 9 for the products, and 6 for n's length where n is small beside a and b */
         real doubt = 16 * UNIT * length(a) * length(b) * (length(p) + length(f));
