@@ -486,13 +486,14 @@ static inline int are_boxes(const shape *a, const shape *b)
 }
 
 /* The doubt as doubt_by_squares has it, of two boxes side by side. */
-HOT int doubt_of_boxes(difference *d, real cc, duos half, duo map)
+HOT int doubt_of_boxes(difference *d, real cc, duos half, duo sums)
 {
     const duo set = duos_dot(half, half);
-    const real map_a = d->a.posed ? of_a(map) : 1, map_b = d->b.posed ? of_b(map) : 1;
-    const real square = map_a * of_a(set) + map_b * of_b(set) + cc;
+    real map[2];
+    squares_of_maps(d, sums, map);
+    const real square = map[0] * of_a(set) + map[1] * of_b(set) + cc;
     d->doubt = GLANCE_DOUBT * root(square);
-    return are_squares_plain(map_a, map_b, of_a(set), of_b(set), square);
+    return are_squares_plain(map[0], map[1], of_a(set), of_b(set), square);
 }
 
 /* Whether the first corner shows it, or else the axes, of two boxes, of which nothing more is known. */

@@ -25,7 +25,7 @@ static void look_along(outlook *s, const difference *d, vec n)
     if (same(n, s->n)) return;
     for (int i = 0; i < DIM; i++) {
         h[i] = duo_halves_of(both.c[i]);
-        const halves own = {of_a(h[i].upper), of_a(h[i].lower)}, back = {-own.upper, -own.lower};
+        const halves own = {of_a(h[i].upper), of_a(h[i].lower)}, back = {of_b(h[i].upper), of_b(h[i].lower)};
         gather(&square, product_of_halves(n.c[i], own, n.c[i], own));
         gather(&apart, product_of_halves(-n.c[i], back, d->c.c[i], halves_of(d->c.c[i])));
         apart.low -= n.c[i] * d->c_low.c[i];
@@ -90,8 +90,8 @@ typedef struct held {
 static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.high == k.high && h.low < k.low); }
 
 /* Which of these is the highest in truth, the first of equals; those that are about lower than least are not. It is the
- * only one that is held then. The body is the one whose numbers of takes out of two side by side. */
-static void settle_held(held *s, const outlook *o, real (*of)(duo), real grain, real least)
+ * only one that is held then. own: of_a or of_b, by whose body they are. */
+static void settle_held(held *s, const outlook *o, real (*own)(duo), real grain, real least)
 {
     twin most = {-REAL_MAX, 0};
     int left = 0;
@@ -103,7 +103,7 @@ static void settle_held(held *s, const outlook *o, real (*of)(duo), real grain, 
     s->n = 1;
     for (int k = 0; k < left && left > 1; k++) {
         const duo_twin both = heights_of(o, duos_both(mul(load(s->at[k]), grain)));
-        const twin h = {of(both.high), of(both.low)};
+        const twin h = {own(both.high), own(both.low)};
         if (!is_lower_twin(most, h)) continue;
         most = h;
         s->at[0] = s->at[k];
@@ -124,11 +124,11 @@ static inline size_t lower_runs(const list *l, const real *at, size_t left, vec 
 
 /* Of the body's corners the one farthest along the way looked along, as settle_held has it. Rounded heights tell which
  * it can't be. near: a corner that is about as far, if one is known. */
-static vec farthest_corner(const outlook *o, const body *k, const shape *s, real (*of)(duo), const vec *near)
+static vec farthest_corner(const outlook *o, const body *k, const shape *s, real (*own)(duo), const vec *near)
 {
     vec rough;
     const real grain = k->grain;
-    EACH(rough.c[i] = of(duo_add(o->high.c[i], o->low.c[i])));
+    EACH(rough.c[i] = own(duo_add(o->high.c[i], o->low.c[i])));
     if (is_box(s)) return box_corner(s, rough);
     const list l = corners_of(s);
     const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
@@ -145,12 +145,12 @@ static vec farthest_corner(const outlook *o, const body *k, const shape *s, real
             real about = dot(mul(load(at), grain), rough);
             if (about < least) continue;
             least = larger(about - margin, least);
-            if (some.n == HELD) settle_held(&some, o, of, grain, least);
+            if (some.n == HELD) settle_held(&some, o, own, grain, least);
             some.at[some.n] = at;
             some.about[some.n++] = about;
         }
     }
-    settle_held(&some, o, of, grain, least);
+    settle_held(&some, o, own, grain, least);
     return load(some.at[0]);
 }
 

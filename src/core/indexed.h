@@ -236,7 +236,7 @@ static size_t write_index(const list *l, uint32_t side, uint32_t *index, size_t 
         at = write_cell(l, (uint32_t)(k - BEGINS), side, index, at, end);
     }
     const size_t size = at + l->count;
-    if (size > end) return size;
+    if (size > end || (size > most && side > 1)) return size; /* there is to be one of fewer cells */
     index[begins] = (uint32_t)at;
     put_in_order(l, index + at);
     index[OF_POINTS] = (uint32_t)l->count;

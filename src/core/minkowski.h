@@ -134,6 +134,13 @@ HOT const real *map_of(const body *k) { return k->posed ? k->m : unturned; }
 
 /* What is done with both at once takes their maps and grains from there. */
 HOT void lay_maps(difference *d) { d->maps = duo_map_at(map_of(&d->a), map_of(&d->b)); }
+/* The squares of both maps, of the sums of their squared entries: 1 where there is none, though that sum is DIM. */
+HOT void squares_of_maps(const difference *d, duo sums, real map[2])
+{
+    map[0] = d->a.posed ? of_a(sums) : 1;
+    map[1] = d->b.posed ? of_b(sums) : 1;
+}
+
 HOT void lay_grains(difference *d) { d->grains = duo_of(d->a.grain, d->b.grain); }
 
 static void lay_side_by_side(difference *d)

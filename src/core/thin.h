@@ -434,9 +434,7 @@ HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a,
 {
     lay_maps(d);
     *uu = squares_of_duo_map(&d->maps);
-    const duo whole = duos_sum(*uu);
-    map[0] = d->a.posed ? of_a(whole) : 1;
-    map[1] = d->b.posed ? of_b(whole) : 1;
+    squares_of_maps(d, duos_sum(*uu), map);
     const real square = map[0] * set_a + map[1] * set_b + dot(d->c, d->c);
     d->doubt = unit * root(square);
     return is_of_plain_size(&d->a, map[0], set_a) && is_of_plain_size(&d->b, map[1], set_b) &&
@@ -447,9 +445,7 @@ HOT int doubt_outside(difference *d, const shape *a, const shape *b, real set_a,
 HOT real square_of_sticks(const difference *d, const sticks *k, real map[2], real set[2])
 {
     const duo sets = duo_larger(duos_dot(k->end[0], k->end[0]), duos_dot(k->end[1], k->end[1]));
-    const duo maps = square_of_duo_map(&k->m);
-    map[0] = d->a.posed ? of_a(maps) : 1;
-    map[1] = d->b.posed ? of_b(maps) : 1;
+    squares_of_maps(d, square_of_duo_map(&k->m), map);
     set[0] = of_a(sets);
     set[1] = of_b(sets);
     return map[0] * set[0] + map[1] * set[1] + dot(d->c, d->c);
@@ -469,8 +465,8 @@ static APART enum glanced tell_sticks_outside(difference *d, const shape *a, con
     return tell_sticks(d, &k, a, b, g, r) ? TELLING : IN_VAIN;
 }
 
-/* None of these squares has lost digits to underflow. */
-HOT int are_whole_squares(vec uu)
+/* None of the axes, whose squares these are, is so short that they have lost digits to underflow. */
+HOT int are_axes_whole(vec uu)
 {
     int r = 1;
     EACH(r &= uu.c[i] > REAL_MIN / (UNIT * UNIT));
@@ -488,7 +484,7 @@ static APART enum glanced tell_box_outside(difference *d, const shape *a, const 
     const int of_second = d->b.asked == AS_BOX;
     const vec uu = of_second ? vec_of_b(both) : vec_of_a(both);
     const real level = leveler(of_second ? d->b.norm : d->a.norm);
-    if (!are_whole_squares(uu)) return UNCLEAR;
+    if (!are_axes_whole(uu)) return UNCLEAR;
     return tell_point_and_box(d, level, mul(uu, level * level), a, b, g, r) ? TELLING : IN_VAIN;
 }
 
