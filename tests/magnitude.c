@@ -459,6 +459,54 @@ static void another_unit_of_boxes_in_line(void **state)
     }
 }
 
+static int is_same_point(const real *x, const real *y, int k)
+{
+    real z[DIM];
+    resize_all(z, x, DIM, k);
+    return memcmp(z, y, sizeof z) == 0;
+}
+
+/* Of boxes without width along some axes, one without a pose: the signs of their points' zeros, too, which a product
+ * with a map's 0 would change. In units so small that squares underflow they are asked another way. */
+static void another_unit_of_flat_boxes(void **state)
+{
+    const int least = LEAST_EXPONENT + 16;
+    static pair p, q;
+    long apart = 0;
+    (void)state;
+    for (uint64_t n = 0; n < 2000; n++) {
+        draws d = draws_from(15, 0, n);
+        const int by = least + below(&d, 1 - least), bare = below(&d, 2);
+        V(result) x, y;
+        for (int k = 0; k < 2; k++) {
+            body *b = k ? &p.b : &p.a;
+            start_body(b, BOX);
+            for (int i = 0; i < DIM; i++) {
+                b->half[i] = (real)(below(&d, 2) * (1 + (double)below(&d, 8)) / 8);
+            }
+        }
+        for (int i = 0; i < DIM; i++) {
+            (bare ? &p.a : &p.b)->pose.p[i] = (real)(below(&d, 7) - 3);
+        }
+        bind_pair(&p);
+        resize_pair(&q, &p, by, 0);
+        (bare ? &p.b : &p.a)->shape.pose = NULL;
+        (bare ? &q.b : &q.a)->shape.pose = NULL;
+        for (int kind = 0; kind < 2; kind++) {
+            memset(&x, 0, sizeof x);
+            memset(&y, 0, sizeof y);
+            assert_int_equal(queries[kind](&p.a.shape, &p.b.shape, NULL, &x),
+                             queries[kind](&q.a.shape, &q.b.shape, NULL, &y));
+            if (x.lower > 0) {
+                assert_int_equal(first_difference(&x, &y, by, 0), -1);
+                assert_true(is_same_point(x.point_a, y.point_a, by) && is_same_point(x.point_b, y.point_b, by));
+                apart++;
+            }
+        }
+    }
+    assert_true(apart > 2000);
+}
+
 /* Two points with radii, on one another or apart along an axis by a number of few digits: to the last bit the sum of a
  * few numbers, which may be a tie between two more. */
 static void another_unit_of_points_with_radii(void **state)
@@ -754,6 +802,7 @@ int main(void)
         cmocka_unit_test(another_unit_by_the_map),
         cmocka_unit_test(another_unit_along_an_axis),
         cmocka_unit_test(another_unit_of_boxes_in_line),
+        cmocka_unit_test(another_unit_of_flat_boxes),
         cmocka_unit_test(another_unit_of_points_with_radii),
         cmocka_unit_test(capsules_in_the_smallest_unit),
         cmocka_unit_test(subnormal_numbers),

@@ -320,6 +320,20 @@ static int prove(depth *d, real *upper)
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
 #define MOST_OPEN UNIT
 
+/* One that is closed is no wider than this times how far out the lowest facet's corners are, as its normal is rounded;
+ * or the surface has a dent, as where a corner that lies beyond an edge by less than rounding was not seen there. */
+#define MOST_DENTED (8 * UNIT)
+
+/* Whether the bracket of known corners, of which nothing more is to be seen by rounded numbers, is wider than that. */
+static int is_open(const depth *d, int proven, real upper)
+{
+    const real width = upper - d->q->lower;
+    real far = 0;
+    if (!proven) return width > MOST_OPEN;
+    for (int i = 0; d->floor && i < DIM; i++) far = larger(spread(d->p.tip[d->floor->v[i]].w), far);
+    return width > MOST_DENTED * far;
+}
+
 /* What both bounds of a facet are charged for roundings at most, but for the doubt and the slack, in a frame where
  * heights are up to 2: 8 (2 + 2) by floor_of, and 5 (2 + 2 sqrt(3)) by raise. */
 #define CHARGED (64 * UNIT)
@@ -401,7 +415,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (end == OPEN && !flat) end = grow_surface(d);
     if (end == FAULT) return end;
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
-    const int open = !prove_grown(d, upper, &end) && g->exact && end == STILL && *upper - d->q->lower > MOST_OPEN;
+    const int proven = prove_grown(d, upper, &end), open = g->exact && end == STILL && is_open(d, proven, *upper);
     if (end == FAULT) return end;
     point_to(d, *upper, weight, flat, &end);
     if ((g->tight || open) && !d->settled && end != FAULT && d->floor && d->q->steps < g->max_steps &&
