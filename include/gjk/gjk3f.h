@@ -97,9 +97,9 @@ typedef struct gjk3f_result {
  * With options.tight, of sets whose corners are known (points, box, segment, triangle, origin, by the address of these
  * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
  * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
- * of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 27, but of two boxes 50, too,
- * unless it is built with GJK_ALONE. A pair that spans more keeps the usual bracket. A library built with GJK_NO_EXACT
- * does without. */
+ * of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 27, but 52 of two boxes and of
+ * hulls of up to 64 points, unless it is built with GJK_ALONE. A pair that spans more keeps the usual bracket. A
+ * library built with GJK_NO_EXACT does without. */
 GJK_API int gjk3f_distance(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
@@ -126,7 +126,7 @@ GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gj
  * of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth down to about the
  * least that the coordinates can spell is right to the last place, unless the polytope comes to its end in the noise of
  * nearly flat bodies; then the bracket is the usual one. It takes up to 90 KB of stack where the compiler
- * optimises, in float 50, its own room for corners included. */
+ * optimises, in float 52, its own room for corners included. */
 GJK_API int gjk3f_penetration(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 13536 bytes of stack, in float 8352; and in a library that holds this question in float too, float goes on in that

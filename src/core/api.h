@@ -545,6 +545,18 @@ static inline enum end walk(search *q, const shape *a, const shape *b, const goa
     }
 }
 
+#if DIM == 3
+/* Strides have led so near to contact that float can't tell: the sister may. */
+static int tell_trail(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    if (!HAS_SISTER || q->glanced != STRODE || !q->trail.near || !ask_sister_near(q, a, b, o, g, r)) return 0;
+    if (o->cache) remember(o->cache, q, a, b);
+    return 1;
+}
+#else
+#define tell_trail(q, a, b, o, g, r) 0
+#endif
+
 /* The corners of both can be listed, and are, and nothing is asked that the everyday way does not know. */
 static inline int list_both(search *q, const shape *a, const shape *b, const options *o)
 {
@@ -623,6 +635,7 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
         if (q->glanced == UNCLEAR) return FAULT;
         q->told = q->glanced == TELLING;
         if (q->told && o->cache) remember(o->cache, q, a, b);
+        q->told |= tell_trail(q, a, b, o, g, r);
     }
 #endif
     if (q->told) return BEYOND;
@@ -630,7 +643,8 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     enum end end = walk(q, a, b, g, r);
     if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
     int open = end == OPEN && q->steps < g->max_steps;
-    if (!q->told && (end == STILL || open)) q->told = tell_closely(q, a, b, g, open, r);
+    if (!q->told && (end == STILL || open))
+        q->told = (is_near(q) && ask_sister_near(q, a, b, o, g, r)) || tell_closely(q, a, b, g, open, r);
     if (q->told && open) end = STILL;
     if (q->told && o->cache) remember(o->cache, q, a, b);
     return end;
@@ -777,7 +791,7 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
     enum end end = STILL;
     const int hers =
         (!q->listed && spent[1] > 0) || q->glanced == CLOUDED || q->glanced == AIMED; /* float can't tell */
-    if (!(HAS_SISTER && hers && ask_sister_alone(q, a, b, o, &g, &r))) {
+    if (!(HAS_SISTER && hers && ask_sister_alone(q, a, b, o, &g, &r)) && !tell_trail(q, a, b, o, &g, &r)) {
         int bad = reply_to(q, a, b, o, &g, &end, &r);
         if (bad) return bad;
     }

@@ -58,7 +58,7 @@ typedef struct trail {
     int at[DIM + 1], n;
     real unscale, vv, lower;
     vec normal;
-    int pending, steps, calls;
+    int pending, steps, calls, near;
 } trail;
 
 typedef struct search {
@@ -108,6 +108,14 @@ typedef struct search {
 static int is_faded(real vv) { return !(vv > UNIT * UNIT / 256); }
 
 static int vanished(const search *q) { return is_faded(q->vv); }
+
+/* |v| is below so many doubts: rounding leaves hardly a digit of it. */
+#define NEAR 8
+static inline int is_near(const search *q)
+{
+    const real near = NEAR * q->d.doubt;
+    return q->s.n > 0 && q->s.n <= DIM && q->vv < near * near;
+}
 
 /* Room in the full simplex, by its weights; where these show none, by itself. */
 static real room_inside(const search *q)

@@ -422,6 +422,7 @@ static void leave_trail(search *q)
     t->pending = q->pending;
     t->steps = q->steps;
     t->calls = q->d.calls;
+    t->near = is_near(q);
 }
 
 /* Of bodies at which a glance was cast in vain, in the caller's lengths. */

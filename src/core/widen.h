@@ -23,6 +23,12 @@ static int ask_sister_alone(search *q, const shape *a, const shape *b, const opt
     return 0;
 }
 
+static int ask_sister_near(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    (void)q, (void)a, (void)b, (void)o, (void)g, (void)r;
+    return 0;
+}
+
 #else
 #define HAS_SISTER 1
 
@@ -196,8 +202,23 @@ static int is_final(const sister(result) * hers, const goal *g)
     return g->sign_only || hers->upper - hers->lower <= 8 * (double)UNIT * hers->upper;
 }
 
+/* All of the answer is hers, if that is her status. 0: it is not final, or float can't spell it. */
+static int take_alone(result *r, const sister(result) * hers, int status, const goal *g)
+{
+    if (status < 0 || status == GJK_LIMIT || !is_final(hers, g)) return 0;
+    const real lower = rounded_down(hers->lower), upper = -rounded_down(-hers->upper);
+    if (!(lower > -REAL_MAX && upper < REAL_MAX)) return 0;
+    r->lower = -REAL_MAX;
+    r->upper = REAL_MAX;
+    take_better(r, hers, lower, upper);
+    r->steps = hers->steps;
+    r->supports = hers->supports;
+    r->reserved = 0;
+    return 1;
+}
+
 /* The same of boxes, or what a formula tells, where so near to contact float can't: what she sees at a glance costs
- * less than a walk. All of the answer is hers. 0: she has none that is final and that float can spell. */
+ * less than a walk. */
 static APART int ask_sister_alone(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     sister(result) hers;
@@ -205,17 +226,77 @@ static APART int ask_sister_alone(search *q, const shape *a, const shape *b, con
     q->steps = 0;
     const int status = hear_sister(q, a, b, o, g, &hers);
     q->steps = steps;
-    if (status < 0 || status == GJK_LIMIT || !is_final(&hers, g)) return 0;
-    const real lower = rounded_down(hers.lower), upper = -rounded_down(-hers.upper);
-    if (!(lower > -REAL_MAX && upper < REAL_MAX)) return 0;
-    r->lower = -REAL_MAX;
-    r->upper = REAL_MAX;
-    take_better(r, &hers, lower, upper);
-    r->steps = hers.steps;
-    r->supports = hers.supports;
-    r->reserved = 0;
+    return take_alone(r, &hers, status, g);
+}
+
+#if DIM == 2
+#define ask_sister_near(q, a, b, o, g, r) 0
+#else
+
+/* ---- near contact ---- */
+
+/* Hulls of so few corners are widened with these. */
+#define WIDENED_MOST 64
+
+typedef struct widened_hull {
+    widened body;
+    sister(points) points;
+    double corners[WIDENED_MOST * DIM];
+} widened_hull;
+
+static int widen_hull(widened_hull *w, const shape *s)
+{
+    const points *p = s->data;
+    if (!widen(&w->body, s)) return 0;
+    if (w->body.shape.support != widened_points) return 1;
+    if (p->count > WIDENED_MOST || !(p->reach > 0)) return 0;
+    const size_t step = stride_of(p);
+    for (size_t n = 0; n < p->count; n++)
+        for (size_t i = 0; i < DIM; i++) w->corners[DIM * n + i] = (double)p->v[n * step + i];
+    w->points = (sister(points)){.v = w->corners, .count = p->count, .reach = (double)p->reach};
+    w->body.shape.support = sister(support_points);
+    w->body.shape.data = &w->points;
     return 1;
 }
+
+/* What she starts from: the simplex that float's search has led to. */
+static void lend_simplex(sister(cache) * k, const search *q, const sister(shape) * a, const sister(shape) * b)
+{
+    *k = (sister(cache)){.reach_a = (double)q->d.a.reach,
+                         .reach_b = (double)q->d.b.reach,
+                         .support = {a->support, b->support},
+                         .data = {a->data, b->data},
+                         .count = (uint32_t)q->s.n};
+    for (int i = 0; i < q->s.n; i++) {
+        const vertex *p = corner(&q->s, i);
+        for (int j = 0; j < DIM; j++) {
+            k->a[i][j] = (double)p->x.c[j];
+            k->b[i][j] = (double)p->y.c[j];
+        }
+    }
+}
+
+/* The same of hulls so near to contact that float's search comes to no end of its own, from where that stands on:
+ * whether they meet, or how far apart they are, if they are. */
+static APART int ask_sister_near(const search *q, const shape *a, const shape *b, const options *o, const goal *g,
+                                 result *r)
+{
+    sister(result) hers;
+    sister(cache) k;
+    widened_hull wide_a, wide_b;
+    if (q->steps >= g->max_steps || !widen_hull(&wide_a, a) || !widen_hull(&wide_b, b)) return 0;
+    const sister(shape) *of_a = &wide_a.body.shape, *of_b = &wide_b.body.shape;
+    sister(options) asked = sister_options(o, q, g);
+    lend_simplex(&k, q, of_a, of_b);
+    asked.cache = &k;
+    const int status =
+        g->sign_only ? sister(intersect)(of_a, of_b, &asked, &hers) : sister(distance)(of_a, of_b, &asked, &hers);
+    if (!take_alone(r, &hers, status, g) || !(r->lower > 0 || (!g->deep && r->upper <= 0))) return 0;
+    r->steps += q->steps;
+    r->supports += q->d.calls;
+    return 1;
+}
+#endif
 
 #endif
 #endif
