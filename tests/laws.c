@@ -126,6 +126,35 @@ static void check_agreement(pair *p, draws *d)
     }
 }
 
+#define SPACED (DIM + 2) /* numbers from point to point */
+
+static void space_out(body *b, real spaced[MAX_POINTS * SPACED])
+{
+    for (int n = 0; n < b->count; n++) {
+        for (int i = 0; i < SPACED; i++) {
+            spaced[n * SPACED + i] = i < DIM ? b->v[n][i] : (real)NAN;
+        }
+    }
+    b->set.points.v = spaced;
+    b->set.points.stride = SPACED * sizeof(real);
+}
+
+/* Points that stand farther apart in memory, something else between them. */
+static void check_stride(pair *p, draws *d)
+{
+    static real spaced[2][MAX_POINTS * SPACED];
+    answer x = ask(&p->a, &p->b), y;
+    (void)d;
+    for (int k = 0; k < 2; k++) {
+        body *b = k ? &p->b : &p->a;
+        if (b->kind == POINTS) {
+            space_out(b, spaced[k]);
+        }
+    }
+    y = ask(&p->a, &p->b);
+    must_be_same(p, &x, &y);
+}
+
 /* Into a common frame that is only rounded: the truth moves by the rounding of the poses. */
 static void check_motion(pair *p, draws *d)
 {
@@ -535,6 +564,7 @@ static void normal_of_short_edges(void **state)
 LAW(repeat)
 LAW(swap)
 LAW(agreement)
+LAW(stride)
 LAW(motion)
 LAW(axes)
 LAW(lattice_motion)
@@ -551,6 +581,7 @@ int main(void)
         cmocka_unit_test(repeat),
         cmocka_unit_test(swap),
         cmocka_unit_test(agreement),
+        cmocka_unit_test(stride),
         cmocka_unit_test(motion),
         cmocka_unit_test(axes),
         cmocka_unit_test(lattice_motion),
