@@ -320,18 +320,30 @@ static int prove(depth *d, real *upper)
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
 #define MOST_OPEN UNIT
 
-/* One that is closed is no wider than this times how far out the lowest facet's corners are, as its normal is rounded;
- * or the surface has a dent, as where a corner that lies beyond an edge by less than rounding was not seen there. */
-#define MOST_DENTED (8 * UNIT)
+/* Whether a corner lies beyond the lowest facet by so much, times how far out that facet's corners are, that the
+ * surface must have a dent there, as where a corner beyond another facet by less than rounding was not seen. Half of it
+ * is what the bound from below is charged. */
+#define DENT (4 * UNIT)
+static int is_dented(depth *d, real width)
+{
+    const facet *f = d->floor;
+    real far = 0, top = -REAL_MAX;
+    for (int k = 0; k < DIM; k++) far = larger(peak(d->p.tip[f->v[k]].w), far);
+    if (!(width > DENT * far) || !same(f->n, d->along)) return 0;
+    look_along(&d->sight, &d->q->d, f->n);
+    for (int k = 0; k < DIM; k++) {
+        const tip *t = &d->p.tip[f->v[k]];
+        top = larger(height_at(&d->sight, &d->q->d, t->x, t->y).high, top);
+    }
+    return -d->below - top > DENT * far;
+}
 
-/* Whether the bracket of known corners, of which nothing more is to be seen by rounded numbers, is wider than that. */
-static int is_open(const depth *d, int proven, real upper)
+/* Whether the bracket of known corners, of which nothing more is to be seen by rounded numbers, may be wider than need
+ * be. */
+static int is_open(depth *d, int proven, real upper)
 {
     const real width = upper - d->q->lower;
-    real far = 0;
-    if (!proven) return width > MOST_OPEN;
-    for (int i = 0; d->floor && i < DIM; i++) far = larger(spread(d->p.tip[d->floor->v[i]].w), far);
-    return width > MOST_DENTED * far;
+    return proven ? d->floor && is_dented(d, width) : width > MOST_OPEN;
 }
 
 /* What both bounds of a facet are charged for roundings at most, but for the doubt and the slack, in a frame where

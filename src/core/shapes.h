@@ -350,7 +350,9 @@ static real part_in(real unit, const shape *s, vec dir, vec *out)
     real back = grows > 0 ? raised(1, exponent_of(unit) - exponent_of(own_unit(&k)) - exponent_of(level)) : 0;
     if (p) {
         vec at = mul(load(p->p), unit);
-        *out = add(mul(map(p->m, mul(*out, level)), back), at);
+        real m[DIM * DIM]; /* not the point: where its unit can't bring it to size, it is small */
+        for (int i = 0; i < DIM * DIM; i++) m[i] = p->m[i] * level;
+        *out = add(mul(map(m, *out), back), at);
         reach = 4 * (grows * level * reach) * back + spread(at);
     } else {
         *out = mul(*out, back);
