@@ -52,7 +52,8 @@ typedef struct gjk3f_shape {
 /* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
  * same pair. Poses and radii may change between queries, and one cache may meet other shapes: it then costs
  * time, never truth. The one thing it cannot see is a set edited in place, behind the same data pointer,
- * the poses and radii inside a couple included: zero the count after such an edit. */
+ * the poses and radii inside a couple included: zero the count after such an edit. Nothing else is to be
+ * written to it by anyone but the library: points of the caller's own making are not all found out. */
 typedef struct gjk3f_cache {
     float a[4][3], b[4][3];     /* points of the two sets, in coordinates of their own */
     float reach_a, reach_b;     /* of the two sets */
