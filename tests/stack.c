@@ -14,14 +14,16 @@
 #define GAPPED 1000 /* and of those with gaps that rounding all but blurs */
 
 /* What the header says, in bytes: of distance and intersect, and of penetration; with a workspace of the caller's so
- * much less. In float some bodies may go on in double. */
+ * much less, but where that is not what takes the most. In float some bodies may go on in double. */
 #if VARIANT_FLOAT
 #define WIDENED_STACK (DIM == 3 ? 52000 : 34000)
 #define DISTANCE_STACK (DIM == 3 ? 27000 : 22000)
 #define PENETRATION_STACK (DIM == 3 ? 52000 : 35000)
+#define SAVED (DIM == 3 ? 0 : V(workspace_size)(64) / 2)
 #else
 #define DISTANCE_STACK (DIM == 3 ? 50000 : 34000)
 #define WIDENED_STACK DISTANCE_STACK
+#define SAVED (V(workspace_size)(64) / 2)
 #define PENETRATION_STACK (DIM == 3 ? 90000 : 60000)
 #endif
 
@@ -127,7 +129,7 @@ static void within_what_the_header_says(void **state)
         assert_true(most[0] <= DISTANCE_STACK && most[1] <= DISTANCE_STACK);
         assert_true(most_widened > 1000 && most_widened <= WIDENED_STACK);
         assert_true(most[2] <= PENETRATION_STACK);
-        assert_true(most[3] + V(workspace_size)(64) / 2 <= PENETRATION_STACK);
+        assert_true(most[3] + SAVED <= PENETRATION_STACK);
     }
 }
 
