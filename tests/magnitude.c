@@ -535,6 +535,35 @@ static void another_unit_of_points_with_radii(void **state)
     }
 }
 
+#if DIM == 3
+/* The first corner lies as far along the way to a point within as that point does: no ways lead down beside it, to
+ * where others would be sought at once. */
+static void another_unit_without_a_fan(void **state)
+{
+    static const real a[3][DIM] = {{1, 0, -3}, {1, -1, -2}, {4, -2, -2}};
+    static const real b[5][DIM] = {{-2, -2, 0}, {0, 3, 1}, {4, 3, 1}, {4, 1, 0}, {-3, 0, -3}};
+    static const int unit[] = {LEAST_EXPONENT / 2, LEAST_EXPONENT / 3, 1, MOST_EXPONENT / 2};
+    static pair p, q;
+    V(result) x, y;
+    (void)state;
+    start_body(&p.a, TRIANGLE);
+    start_body(&p.b, POINTS);
+    memcpy(p.a.v, a, sizeof a);
+    memcpy(p.b.v, b, sizeof b);
+    p.b.count = 5;
+    p.b.pose.p[0] = p.b.pose.p[2] = 2;
+    bind_pair(&p);
+    memset(&x, 0, sizeof x);
+    assert_int_equal(V(intersect)(&p.a.shape, &p.b.shape, NULL, &x), GJK_DECIDED);
+    for (size_t i = 0; i < sizeof unit / sizeof *unit; i++) {
+        resize_pair(&q, &p, unit[i], 0);
+        memset(&y, 0, sizeof y);
+        assert_int_equal(V(intersect)(&q.a.shape, &q.b.shape, NULL, &y), GJK_DECIDED);
+        assert_int_equal(first_difference(&x, &y, unit[i], 0), -1);
+    }
+}
+#endif
+
 /* A capsule as the hull of two balls about points: the points have no size to round, in the smallest unit either. */
 static void capsules_in_the_smallest_unit(void **state)
 {
@@ -804,6 +833,9 @@ int main(void)
         cmocka_unit_test(another_unit_of_boxes_in_line),
         cmocka_unit_test(another_unit_of_flat_boxes),
         cmocka_unit_test(another_unit_of_points_with_radii),
+#if DIM == 3
+        cmocka_unit_test(another_unit_without_a_fan),
+#endif
         cmocka_unit_test(capsules_in_the_smallest_unit),
         cmocka_unit_test(subnormal_numbers),
         cmocka_unit_test(numbers_near_overflow),

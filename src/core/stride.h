@@ -269,14 +269,16 @@ HOT vec inner_point(const body *k, int hull)
 }
 
 /* The ways least along which such corners lie: beside the line from o, within, to the first corner p. How long its
- * parts are is told by their spreads, which is near enough. */
-HOT void spread_fan(vec o, vec p, vec way[FAN])
+ * parts are is told by their spreads, which is near enough. 0: there are none, as p lies as far along o as o does, or
+ * in line with it. */
+HOT int spread_fan(vec o, vec p, vec way[FAN])
 {
-    const real oo = dot(o, o), op = dot(o, p), per = 1 / oo, tall = spread(o);
+    const real oo = dot(o, o), op = dot(o, p), per = 1 / oo, tall = spread(o), fall = 1 - op * per;
     const vec aside = sub(p, mul(o, op * per)), across = mul(cross(o, aside), tall * per * (real)0.58);
-    const vec down = mul(o, spread(aside) / (tall * (1 - op * per))), on = add(mul(aside, (real)0.5), down);
+    const vec down = mul(o, spread(aside) / (tall * fall)), on = add(mul(aside, (real)0.5), down);
     way[0] = add(on, across);
     way[1] = sub(on, across);
+    return fall != 0 && dot(way[0], way[0]) > 0;
 }
 
 /* The point of the tetrahedron across from the face that the origin is beyond. */
@@ -308,7 +310,7 @@ HOT enum glanced dig_from(search *q, int hulls, int of_all, real height, vec fir
     int across = 1, all = DIM;
     q->dug = 0;
     if (!(dot(t.w[DIM], t.w[DIM]) > UNIT * UNIT)) return IN_VAIN; /* it gives no direction */
-    spread_fan(t.w[DIM], t.w[0], way);
+    if (!spread_fan(t.w[DIM], t.w[0], way)) return IN_VAIN;
     for (;;) {
         const vec v = way[q->dug < FAN ? q->dug : FAN];
         evidence e;
