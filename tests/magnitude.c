@@ -467,7 +467,8 @@ static int is_same_point(const real *x, const real *y, int k)
 }
 
 /* Of boxes without width along some axes, one without a pose: the signs of their points' zeros, too, which a product
- * with a map's 0 would change. In units so small that squares underflow they are asked another way. */
+ * with a map's 0 would change. In units so small that squares underflow they are asked another way, which in the plane
+ * takes a step more where they touch: so of these nothing is asked here. */
 static void another_unit_of_flat_boxes(void **state)
 {
     const int least = LEAST_EXPONENT + 16;

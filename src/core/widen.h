@@ -23,12 +23,6 @@ static int ask_sister_alone(search *q, const shape *a, const shape *b, const opt
     return 0;
 }
 
-static int ask_sister_near(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
-{
-    (void)q, (void)a, (void)b, (void)o, (void)g, (void)r;
-    return 0;
-}
-
 #else
 #define HAS_SISTER 1
 
@@ -229,11 +223,18 @@ static APART int ask_sister_alone(search *q, const shape *a, const shape *b, con
     return take_alone(r, &hers, status, g);
 }
 
-#if DIM == 2
-#define ask_sister_near(q, a, b, o, g, r) 0
-#else
+#endif
 
 /* ---- near contact ---- */
+
+#if !HAS_SISTER || DIM == 2 /* in the plane flat.h is in double anyway */
+static int ask_sister_near(const search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
+{
+    (void)q, (void)a, (void)b, (void)o, (void)g, (void)r;
+    return 0;
+}
+
+#else
 
 /* Hulls of so few corners are widened with these. */
 #define WIDENED_MOST 64
@@ -298,5 +299,4 @@ static APART int ask_sister_near(const search *q, const shape *a, const shape *b
 }
 #endif
 
-#endif
 #endif
