@@ -253,6 +253,25 @@ static void cloud(int count)
     bind(&a);
 }
 
+/* Nor where a cache lends a front that they have nothing to do with. */
+static void points_behind_a_cache(void **state)
+{
+    V(result) r;
+    V(cache) cache;
+    V(options) o = default_options();
+    (void)state;
+    o.cache = &cache;
+    for (int k = 0; k < BAD_NUMBERS; k++) {
+        for (int q = 0; q < QUERIES; q++) {
+            memset(&cache, 0, sizeof cache);
+            cloud(4);
+            assert_true(queries[q](&a.shape, &b.shape, &o, &r) >= 0);
+            a.v[0][1] = bad_number(k);
+            expect_query(queries[q], &a.shape, &b.shape, &o, GJK_BAD_SUPPORT);
+        }
+    }
+}
+
 static void point_sets(void **state)
 {
     (void)state;
@@ -961,6 +980,7 @@ int main(void)
         cmocka_unit_test_setup(sizes, fresh),
         cmocka_unit_test_setup(sizes_of_0, fresh),
         cmocka_unit_test_setup(points_not_finite, fresh),
+        cmocka_unit_test_setup(points_behind_a_cache, fresh),
         cmocka_unit_test_setup(point_sets, fresh),
         cmocka_unit_test_setup(indexes, fresh),
         cmocka_unit_test_setup(singular_poses, fresh),

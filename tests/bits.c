@@ -23,7 +23,7 @@ static const uint64_t known[3] = {0x7c6c9af3bd33475c, 0x783b593effba6b16, 0xfd3d
 static const uint64_t known[3] = {0x1d195d5d1989e02a, 0x27f5406e2be30179, 0xee3cccbd7040c9e1};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x45b9048d14a44945, 0x680e4cbea1c1056c, 0xfc87a0265c6b9fe0};
+static const uint64_t known[3] = {0xe8b01831516e13c8, 0x30cdc88cf57f39ac, 0x90a09ef9f7f12265};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

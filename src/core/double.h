@@ -207,6 +207,13 @@ HOT dvec dlengths(dvec a, dvec b)
     return droots(dadd(dfirsts(p, q), dseconds(p, q)));
 }
 
+/* What a map, by rows, makes of directions: that along which a body's own corners are as high as placed ones along v.
+ */
+HOT dvec dpulled(const dvec row[2], dvec v)
+{
+    return dadd(dtimes(row[0], dfirsts(v, v)), dtimes(row[1], dseconds(v, v)));
+}
+
 HOT double dlength(dvec a) { return droot(ddot(a, a)); }
 
 /* Less by as much as rounding them to float may add, and at most two of its steps. */

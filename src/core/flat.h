@@ -183,7 +183,7 @@ HOT void find_two(const flat_body *s, const dheights *h, unsigned at[2])
     };
 #undef OUT
 #undef IN
-    const double *bar = barred[s->from.count];
+    const double *bar = barred[s->count];
     const dvec x = dlarger(dtagged(h->of[0], 0, 1), djoin(bar)), y = dlarger(dtagged(h->of[1], 2, 3), djoin(bar + 2));
     dvec low = dsmaller(x, y), next = dlarger(x, y);
     if (has_more_than_run(s)) {
@@ -195,7 +195,7 @@ HOT void find_two(const flat_body *s, const dheights *h, unsigned at[2])
     const dvec other = dswapped(low);
     at[0] = dtag(dsmaller(low, other));
     at[1] = dtag(dsmaller(dlarger(low, other), dsmaller(next, dswapped(next))));
-    if (s->from.count == 1) at[1] = 0;
+    if (s->count == 1) at[1] = 0;
 }
 
 /* Where the walk starts: at the two lowest corners of each body. */
@@ -278,13 +278,12 @@ HOT enum halt walk_flat(const flat *f, dfront *k, const goal *g)
     }
 }
 
-/* The pair, as far as it is looked at. 0: it is no such, or too large. */
-HOT int set_flat(flat *f, real run_a[RUN * DIM], real run_b[RUN * DIM], const shape *a, const shape *b)
+/* The pair, but for its corners' places. 0: it is none that is looked at so, or too large. */
+HOT int set_flat(flat *f, const shape *a, const shape *b)
 {
-    flat_list of_a, of_b;
-    if (!list_flat(a, run_a, &of_a) || !list_flat(b, run_b, &of_b)) return 0;
+    if (!list_flat(a, &f->a) || !list_flat(b, &f->b)) return 0;
     if (!(a->radius >= 0 && b->radius >= 0 && a->radius + b->radius <= REAL_MAX / 16)) return 0;
-    const double far = pose_flat(a, of_a.reach, &f->a) + pose_flat(b, of_b.reach, &f->b);
+    const double far = pose_flat(a, &f->a) + pose_flat(b, &f->b);
     f->c = dsub(f->a.p, f->b.p);
     const dvec apart = dsizes(f->c);
     const double whole = far + (dfirst(apart) + dsecond(apart));
@@ -292,7 +291,7 @@ HOT int set_flat(flat *f, real run_a[RUN * DIM], real run_b[RUN * DIM], const sh
     f->blur = whole * FLAT_DOUBT;
     f->wide = whole * FLAT_WIDTH;
     f->radius = (double)a->radius + (double)b->radius;
-    return holds_in_all(in_both(take_flat(&of_a, &f->a, 0, f->c), take_flat(&of_b, &f->b, 1, f->c)));
+    return 1;
 }
 
 /* To the cache, for the next query, the front, if that is not there. */
@@ -323,11 +322,11 @@ static APART int go_on_flat(const flat *f, const dfront *first, const dlook *l, 
                             const shape *a, const shape *b, cache *own, const goal *g, result *r)
 {
     dfront k = *first;
-    if (t) stand_as_started(f, &k, t);
+    stand_as_started(f, &k, t);
     find_last(f, &k, l);
     if (at == FOREMOST) {
         if (f->radius > 0 || !tell_flat_touching(f, k, g->deep, r)) return 0;
-        if (own) pass_flat_on(own, f, &k, !t, a, b);
+        if (own) pass_flat_on(own, f, &k, 0, a, b);
         return 1;
     }
     at = FOREMOST;
@@ -335,7 +334,7 @@ static APART int go_on_flat(const flat *f, const dfront *first, const dlook *l, 
         k.around = !turn_flat(&k);
         at = k.around ? AROUND : walk_flat(f, &k, g);
     }
-    return tell_walked_flat(f, &k, at, !t, a, b, own, g, r);
+    return tell_walked_flat(f, &k, at, 0, a, b, own, g, r);
 }
 
 /* The front's length and direction, from the nearest point. */
@@ -375,23 +374,71 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
     return go_on_flat(f, &first, &look, &start, at, a, b, own, g, r);
 }
 
-/* The same by the front that the cache has lent. */
-HOT int tell_flat_again(const flat *f, dfront *k, const shape *a, const shape *b, cache *own, const goal *g, result *r)
+/* The corner of the difference that these make. */
+HOT dspot dspot_made(const flat *f, const real *x, const real *y)
 {
-    dlook l;
+    const dvec a = ddots(f->a.row[0], f->a.row[1], dload(x));
+    const dvec b = dsub(f->c, ddots(f->b.row[0], f->b.row[1], dload(y)));
+    return (dspot){dadd(a, b), a, b, 0};
+}
+
+/* A front's ends, which are one where it is a corner, as a cache lends them. 0: it lends none, or others. */
+HOT int borrow_front(const flat *f, const cache *from, dspot *p, dspot *q)
+{
+    const uint32_t first = from->reserved, last = from->count > 1 ? first >> 8 : first, other = from->count > 1;
+    const real *x = corner_there(&f->a, at_in_a(first), from->a[0]);
+    const real *y = corner_there(&f->b, at_in_b(first), from->b[0]);
+    const real *z = corner_there(&f->a, at_in_a(last), from->a[other]);
+    const real *u = corner_there(&f->b, at_in_b(last), from->b[other]);
+    if (!x || !y || !z || !u) return 0;
+    *p = dspot_made(f, x, y);
+    *q = dspot_made(f, z, u);
+    return 1;
+}
+
+/* The front from p to q: how far along it the nearest point is, and its v; without a branch. */
+HOT double stand_from_to(const dspot *p, const dspot *q, dvec *v, dsight *s)
+{
+    const dvec none = dboth(0), one = dboth(1), edge = dsub(q->w, p->w), square = dturned(edge);
+    const dvec from = dboth(-ddot(p->w, edge)), whole = dboth(ddot(edge, edge));
+    const dvec within = dwhere_below(none, from, dwhere_below(from, whole, one, none), none);
+    const dvec part = dsmaller(dlarger(ddivide(from, whole), none), one); /* 0 of one corner */
+    sight_between(s, p->a, p->b, dsub(q->a, p->a), dsub(q->b, p->b), part);
+    *v = dwhere_below(none, within, dflipped(square, ddot(square, p->w)), s->way);
+    return dfirst(part);
+}
+
+/* Leaves in the cache what of the edge in it is nearest. */
+HOT void keep_nearest(cache *own, double part)
+{
+    if (own->count < 2 || (part > 0 && part < 1)) return;
+    own->count = 1;
+    if (!(part > 0)) return;
+    own->reserved >>= 8;
+    memcpy(own->a[0], own->a[1], sizeof own->a[0]);
+    memcpy(own->b[0], own->b[1], sizeof own->b[0]);
+}
+
+/* How far apart by the front that the cache lends, if it is still the nearest, or whether they meet: no corner is
+ * placed but those of that front. 0: that does not tell. */
+static APART int tell_flat_again(const shape *a, const shape *b, cache *own, int sign_only, int deep, result *r)
+{
+    const goal g = {.sign_only = sign_only, .deep = deep};
+    flat f;
+    dfront k = {.steps = 1};
+    dspot p, q;
     dsight s;
-    sight_flat(k, &s);
-    const double along = measure_flat(&s, k->v), near = ddot(k->v, k->p.w);
-    look_flat(f, k, &l);
-    const double height = dfirst(l.a.least) + dfirst(l.b.least);
-    const enum halt at = (near - height) * s.per > f->blur ? LOST : FOREMOST;
-    if (at == FOREMOST && tell_flat_sight(f, k, &s, height * s.per, along, a, b, g, r)) {
-        pass_flat_on(own, f, k, 1, a, b);
-        return 1;
-    }
-    const dfront first = *k;
-    const dlook look = l;
-    return go_on_flat(f, &first, &look, NULL, at, a, b, own, g, r);
+    lanes fit_a, fit_b;
+    if (!set_flat(&f, a, b) || !borrow_front(&f, own, &p, &q)) return 0;
+    const double part = stand_from_to(&p, &q, &k.v, &s), along = measure_flat(&s, k.v), near = ddot(k.v, s.way);
+    const double least_a = least_in_flat(&f.a, dpulled(f.a.row, k.v), &fit_a);
+    const double least_b = least_in_flat(&f.b, dpulled(f.b.row, dopposite(k.v)), &fit_b);
+    const double height = ddot(k.v, f.c) + (least_a + least_b);
+    if (!holds_in_all(in_both(fit_a, fit_b))) return 0;
+    if (!sign_only && (near - height) * s.per > f.blur) return 0;
+    if (!tell_flat_sight(&f, &k, &s, height * s.per, along, a, b, &g, r)) return 0;
+    keep_nearest(own, part);
+    return 1;
 }
 
 /* 0: nothing is told. Else r is written as it is told of all bodies, its value 0 where they meet. */
@@ -399,19 +446,23 @@ HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, res
 {
     flat f;
     dfront k;
-    real run_a[RUN * DIM], run_b[RUN * DIM];
     if (a->support == pub(support_box) && b->support == pub(support_box)) return 0; /* told by their axes */
     if (tell_wide_sticks(a, b, g, r)) {
         if (own) own->count = 0; /* there is nothing that a formula would start from */
         return 1;
     }
-    if (!set_flat(&f, run_a, run_b, a, b)) return 0;
-    k.n = k.steps = k.around = 0;
-    if (own && lends(own, a, b)) recall_flat(&f, &k, own);
+    const int lent = own && lends(own, a, b);
+    if (lent && own->count < 3 && !(own->reserved & UNDER) && tell_flat_again(a, b, own, g->sign_only, g->deep, r))
+        return 1;
+    if (!set_flat(&f, a, b)) return 0;
+    if (!holds_in_all(in_both(take_flat(&f.a, 0, f.c), take_flat(&f.b, 1, f.c)))) return 0;
+    k.n = k.steps = k.around = k.under = 0;
+    if (lent) recall_flat(&f, &k, own);
     const int recalled = k.n;
-    if (!recalled) k.v = ddot(f.c, f.c) > 0 ? f.c : dvec_of(1, 0);
-    if (!g->sign_only && g->max_steps > 1)
-        return recalled ? tell_flat_again(&f, &k, a, b, own, g, r) : tell_flat_start(&f, &k, a, b, own, g, r);
+    if (!recalled) {
+        k.v = ddot(f.c, f.c) > 0 ? f.c : dvec_of(1, 0);
+        if (!g->sign_only && g->max_steps > 1) return tell_flat_start(&f, &k, a, b, own, g, r);
+    }
     const enum halt at = walk_flat(&f, &k, g);
     return tell_walked_flat(&f, &k, at, recalled, a, b, own, g, r);
 }

@@ -68,6 +68,7 @@ static APART int tell_flat_deep(const flat *f, dfront *k, const shape *a, const 
     if (!find_floor(f, k, g, &s)) return 0;
     if (!(s.far > blur)) return 0;
     const double lower = k->height * s.per - f->radius - blur, upper = blur - s.far - f->radius;
+    k->under = 1;
     sight_flat(k, &s);
     if (!(upper - lower <= f->wide) || !(1 > f->blur * AWAY * s.per) || !is_square_to(f, &s)) return 0;
     if (f->radius > 0) move_flat(&s, (double)a->radius, (double)b->radius, 1, 1);

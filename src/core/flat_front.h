@@ -42,53 +42,54 @@ static APART void fill_run(const list of, real run[RUN * DIM])
 
 /* ---- the bodies ---- */
 
-/* The corners as they are given, in its own coordinates. */
-typedef struct flat_list {
-    list from;
-    double reach; /* how far they are from their origin, at most; */
-    real limit;   /* no coordinate is above this */
-} flat_list;
-
 typedef struct flat_body {
-    list from;                   /* the corners as they are given; */
+    const real *v;               /* the corners as they are given, step by step; */
+    size_t count, step;          /*   so many; */
+    double reach;                /* how far they are from their origin, at most; */
+    real limit;                  /* no coordinate is above this; */
+    real run[RUN * DIM];         /* those of a box; */
     dvec share[DIM][PLACES / 2]; /* what each of the list's first run and its last, as a cluster has them (planar.h),
                                     adds to one of the difference; */
     dvec row[DIM], p;            /* its map by rows, and where it is */
 } flat_body;
 
-/* The corners, those of a box spelled into run. 0: they are not known, or there are too many, or the data
- * are none. */
-HOT int list_flat(const shape *k, real run[RUN * DIM], flat_list *s)
+/* The corners, those of a box spelled. 0: they are not known, or there are too many, or the data are none. */
+HOT int list_flat(const shape *k, flat_body *s)
 {
     static const real nothing[DIM] = {0};
+    s->step = DIM;
     if (k->support == pub(support_points)) {
         const points *p = k->data;
         if (!p || !p->v) return 0;
-        const size_t step = stride_of(p);
-        if (p->count - 1 > PLACES - 1 || step < DIM || p->stride % sizeof(real) != 0 || !(p->reach > TINY)) return 0;
-        *s = (flat_list){
-            {p->v, p->count, step, 0, NULL}, (double)p->reach, smaller(p->reach * (1 + 16 * UNIT), REAL_MAX)};
-        return 1;
+        s->v = p->v;
+        s->count = p->count;
+        s->step = stride_of(p);
+        s->reach = (double)p->reach;
+        s->limit = smaller(p->reach * (1 + 16 * UNIT), REAL_MAX);
+        return p->count - 1 <= PLACES - 1 && s->step >= DIM && p->stride % sizeof(real) == 0 && p->reach > TINY;
     }
     s->limit = REAL_MAX;
     if (k->support == pub(support_segment)) {
         const segment *e = k->data;
         if (!e) return 0;
-        s->from = (list){e->v[0], 2, DIM, 0, NULL};
         const dvec first = dsizes(dload(e->v[0])), second = dsizes(dload(e->v[1]));
         const dvec spreads = dadd(dfirsts(first, second), dseconds(first, second));
+        s->v = e->v[0];
+        s->count = 2;
         s->reach = dfirst(dlarger(spreads, dswapped(spreads)));
     } else if (k->support == pub(support_box)) {
         const box *e = k->data;
         if (!e || !(e->half[0] >= 0 && e->half[1] >= 0)) return 0;
         for (int i = 0; i < RUN; i++) {
-            run[DIM * i] = i & 1 ? e->half[0] : -e->half[0];
-            run[DIM * i + 1] = i & 2 ? e->half[1] : -e->half[1];
+            s->run[DIM * i] = i & 1 ? e->half[0] : -e->half[0];
+            s->run[DIM * i + 1] = i & 2 ? e->half[1] : -e->half[1];
         }
-        s->from = (list){run, RUN, DIM, 0, NULL};
+        s->v = s->run;
+        s->count = RUN;
         s->reach = (double)e->half[0] + (double)e->half[1];
     } else {
-        s->from = (list){nothing, 1, DIM, 0, NULL};
+        s->v = nothing;
+        s->count = 1;
         s->reach = 0;
         return k->support == pub(support_origin);
     }
@@ -96,7 +97,7 @@ HOT int list_flat(const shape *k, real run[RUN * DIM], flat_list *s)
 }
 
 /* Its pose. No point of it is farther from there than what is returned. */
-HOT double pose_flat(const shape *k, double reach, flat_body *s)
+HOT double pose_flat(const shape *k, flat_body *s)
 {
     static const pose none = {{1, 0, 0, 1}, {0, 0}};
     const pose *o = k->pose ? k->pose : &none;
@@ -104,16 +105,12 @@ HOT double pose_flat(const shape *k, double reach, flat_body *s)
     s->row[1] = dload(o->m + DIM);
     s->p = dload(o->p);
     const dvec far = dadd(dsizes(s->row[0]), dsizes(s->row[1]));
-    return (dfirst(far) + dsecond(far)) * (reach * 1.5);
+    return (dfirst(far) + dsecond(far)) * (s->reach * 1.5);
 }
 
-/* What a run of corners from place at on adds to those of a - b: a's as they are placed, b's taken from c. Bit for bit,
- * which of their numbers are within the limit. */
-HOT lanes take_run(const real *x, size_t step, lanes limit, flat_body *s, size_t at, int is_b, dvec c)
+/* A run of corners, in their own coordinates. Bit for bit, which of their numbers are within the limit. */
+HOT lanes load_run(const real *x, size_t step, lanes limit, dvec own[DIM][RUN / 2])
 {
-    const dvec r = s->row[0], t = s->row[1], rx = dfirsts(r, r), ry = dseconds(r, r), tx = dfirsts(t, t),
-               ty = dseconds(t, t), cx = dfirsts(c, c), cy = dseconds(c, c);
-    dvec own[DIM][RUN / 2];
     lanes fit = limit;
     for (size_t j = 0; j < RUN; j += LANES, x += LANES * step) {
         lanes l[DIM];
@@ -122,6 +119,32 @@ HOT lanes take_run(const real *x, size_t step, lanes limit, flat_body *s, size_t
         fit = j == 0 ? near : in_both(fit, near);
         EACH(widen_lanes(l[i], own[i], j));
     }
+    return fit;
+}
+
+/* Where the first run stands, step by step; of fewer the first stands there again. */
+HOT const real *first_run(const flat_body *s, real few[RUN * DIM], size_t *step)
+{
+    *step = s->step;
+    if (s->count >= RUN) return s->v;
+    for (size_t i = 0; i < RUN; i++)
+        memcpy(few + DIM * i, s->v + (i < s->count ? i : 0) * s->step, DIM * sizeof *few); /* as it is loaded */
+    *step = DIM;
+    return few;
+}
+
+HOT int has_more_than_run(const flat_body *s) { return s->count > RUN; }
+
+/* And the last. */
+HOT const real *last_run(const flat_body *s) { return s->v + (s->count - RUN) * s->step; }
+
+/* What a run from place at on adds to the corners of a - b: a's as they are placed, b's taken from c. */
+HOT lanes take_run(const real *x, size_t step, lanes limit, flat_body *s, size_t at, int is_b, dvec c)
+{
+    const dvec r = s->row[0], t = s->row[1], rx = dfirsts(r, r), ry = dseconds(r, r), tx = dfirsts(t, t),
+               ty = dseconds(t, t), cx = dfirsts(c, c), cy = dseconds(c, c);
+    dvec own[DIM][RUN / 2];
+    const lanes fit = load_run(x, step, limit, own);
     for (size_t j = 0; j < RUN / 2; j++) {
         const dvec u = dadd(dtimes(rx, own[0][j]), dtimes(ry, own[1][j]));
         const dvec v = dadd(dtimes(tx, own[0][j]), dtimes(ty, own[1][j]));
@@ -131,32 +154,54 @@ HOT lanes take_run(const real *x, size_t step, lanes limit, flat_body *s, size_t
     return fit;
 }
 
-/* All of them; of fewer than a run the first stands there again. Bit for bit, whether they are within the limit. */
-HOT lanes take_flat(const flat_list *l, flat_body *s, int is_b, dvec c)
+/* All of them. Bit for bit, whether they are within the limit. */
+HOT lanes take_flat(flat_body *s, int is_b, dvec c)
 {
-    const lanes limit = in_all(l->limit);
+    const lanes limit = in_all(s->limit);
     real few[RUN * DIM];
-    const real *x = l->from.v;
-    size_t step = l->from.step;
-    s->from = l->from;
-    if (l->from.count < RUN) {
-        for (size_t i = 0; i < RUN; i++)
-            memcpy(few + DIM * i, x + (i < l->from.count ? i : 0) * step, DIM * sizeof *few); /* as it is loaded */
-        x = few;
-        step = DIM;
-    }
+    size_t step;
+    const real *x = first_run(s, few, &step);
     const lanes fit = take_run(x, step, limit, s, 0, is_b, c);
-    if (l->from.count <= RUN) return fit;
-    return in_both(fit, take_run(x + (l->from.count - RUN) * step, step, limit, s, RUN, is_b, c));
+    return has_more_than_run(s) ? in_both(fit, take_run(last_run(s), s->step, limit, s, RUN, is_b, c)) : fit;
 }
 
-HOT int has_more_than_run(const flat_body *s) { return s->from.count > RUN; }
+/* The least height of a run along a way in their own coordinates, in both parts. */
+HOT dvec least_of_run(const real *x, size_t step, lanes limit, dvec way, lanes *fit)
+{
+    const dvec wx = dfirsts(way, way), wy = dseconds(way, way);
+    dvec own[DIM][RUN / 2], least = wx;
+    *fit = load_run(x, step, limit, own);
+    for (size_t j = 0; j < RUN / 2; j++) {
+        const dvec height = dadd(dtimes(wx, own[0][j]), dtimes(wy, own[1][j]));
+        least = j == 0 ? height : dsmaller(least, height);
+    }
+    return least;
+}
 
-/* The corner of that place, as it is given. */
+/* Of all; and bit for bit, whether they are within the limit. */
+HOT double least_in_flat(const flat_body *s, dvec way, lanes *fit)
+{
+    const lanes limit = in_all(s->limit);
+    real few[RUN * DIM];
+    size_t step;
+    const real *x = first_run(s, few, &step);
+    dvec least = least_of_run(x, step, limit, way, fit);
+    if (has_more_than_run(s)) {
+        lanes also;
+        least = dsmaller(least, least_of_run(last_run(s), s->step, limit, way, &also));
+        *fit = in_both(*fit, also);
+    }
+    return dfirst(dsmaller(least, dswapped(least)));
+}
+
+/* Which corner of the list stands at that place. */
+HOT size_t nth_corner_at(const flat_body *s, unsigned at) { return at < RUN ? at : at + s->count - PLACES; }
+
+/* As it is given. */
 HOT dvec corner_in_flat(const flat_body *s, unsigned at)
 {
-    const size_t nth = at < RUN ? at : at + s->from.count - PLACES;
-    return dload(s->from.v + s->from.step * (nth < s->from.count ? nth : 0));
+    const size_t nth = nth_corner_at(s, at);
+    return dload(s->v + s->step * (nth < s->count ? nth : 0));
 }
 
 HOT dvec share_in_flat(const flat_body *s, unsigned at)
@@ -222,11 +267,11 @@ typedef struct dspot {
 /* What is nearest to the origin so far, as the front of planar.h. */
 typedef struct dfront {
     dspot p, q, last;
-    int n;
     dvec v;        /* the corner; or square to the edge from p to q, away from the origin */
     dvec way;      /* along which the last corner has been asked for, */
     double height; /* so high it lies there, times the way's length; */
-    int steps, around;
+    int n, steps, around;
+    int under; /* the origin lies under the edge, which is the lowest on the way out */
 } dfront;
 
 /* How low the bodies' corners lie. */
@@ -311,12 +356,15 @@ HOT int turn_flat(dfront *k)
 
 /* ---- what a cache holds ---- */
 
+/* Beside that: the origin lies under the edge. */
+#define UNDER ((uint32_t)1 << 31)
+
 static inline uint32_t dhint_of(const dfront *k)
 {
     uint32_t r = k->p.at;
     if (k->n > 1) r |= k->q.at << 8;
     if (k->around) r |= k->last.at << 8 * k->n;
-    return r;
+    return k->under ? r | UNDER : r;
 }
 
 static APART void keep_flat(cache *own, const flat *f, uint32_t count, uint32_t hint, const shape *a, const shape *b)
@@ -335,10 +383,12 @@ static APART void keep_flat(cache *own, const flat *f, uint32_t count, uint32_t 
     own->data[1] = b->data;
 }
 
-/* The corner stands there, as it did. */
-HOT int is_there(const flat_body *s, unsigned at, const real was[DIM])
+/* The corner of that place, if it is where it was, to the bit; or NULL. */
+HOT const real *corner_there(const flat_body *s, unsigned at, const real was[DIM])
 {
-    return (has_more_than_run(s) || at < RUN) && dsame(corner_in_flat(s, at), dload(was));
+    const size_t nth = nth_corner_at(s, at);
+    const real *x = s->v + s->step * nth;
+    return (at < RUN || has_more_than_run(s)) && nth < s->count && memcmp(x, was, DIM * sizeof *x) == 0 ? x : NULL;
 }
 
 /* From the corners of the last query, as far as they stand where they did. */
@@ -347,7 +397,7 @@ HOT void recall_flat(const flat *f, dfront *k, const cache *from)
     uint32_t hint = from->reserved;
     for (uint32_t i = 0; i < from->count; i++, hint >>= 8) {
         const unsigned of_a = at_in_a(hint), of_b = at_in_b(hint);
-        if (!is_there(&f->a, of_a, from->a[i]) || !is_there(&f->b, of_b, from->b[i])) return;
+        if (!corner_there(&f->a, of_a, from->a[i]) || !corner_there(&f->b, of_b, from->b[i])) return;
         k->last = dspot_of(f, of_a, of_b);
         turn_flat(k);
     }
