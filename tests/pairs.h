@@ -725,7 +725,7 @@ static inline void draw_neighbours(draws *d, pair *p)
 #define MOST_CLOUDS 8
 
 #define MOST_OF_CLOUD 2000
-#define INDEX_OF_CLOUD (8 * MOST_OF_CLOUD)
+#define INDEX_OF_CLOUD (25 * MOST_OF_CLOUD + 25)
 
 /* Half of the clouds are spread by chance, half along a spiral, which makes many of nearly the same rank. Made once. */
 static inline void make_cloud(int which, int count, real *v)

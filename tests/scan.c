@@ -282,7 +282,7 @@ static void by_an_index(void **state)
 }
 
 /* So large at most, as the header says. */
-static size_t most_bytes(size_t count) { return 80 * count + 100; }
+static size_t most_bytes(size_t count) { return 100 * count + 100; }
 
 /* Heights that overflow are of strangers alone, who are refused then. */
 static void check_same(const list *with, const list *l, vec d)

@@ -114,14 +114,14 @@ static APART size_t farthest_apart(const list *l, vec d, enum care care) { retur
 
 /* ---- making one ---- */
 
-/* So many cells a side for so many points: about as many cells as half of them, and no more than MOST_PER_SIDE; half as
- * many, and so on, where an index would be larger than so many numbers a point. */
+/* So many cells a side for so many points: about four times as many cells as points, and no more than
+ * MOST_A_FACE; half as many a side, and so on, where an index would be larger than so many numbers a point. */
 #define MOST_A_POINT 16
-#define MOST_PER_SIDE 16
+#define MOST_A_FACE 576
 static inline uint32_t cells_a_side(size_t count)
 {
     uint32_t side = 1;
-    while (side < MOST_PER_SIDE && 2 * (size_t)cells_of_face(side) * FACES < count) side++;
+    while (cells_of_face(side) < MOST_A_FACE && (size_t)cells_of_face(side) * FACES < 4 * count) side++;
     return side;
 }
 

@@ -30,10 +30,10 @@ static void copy(real *to, const double *from, int count)
     }
 }
 
-/* Mostly 40 bytes a point are enough. */
+/* Mostly 80 bytes a point are enough. */
 static void give_index(body *b)
 {
-    size_t bytes = b->core.cloud.points.count * 40, more;
+    size_t bytes = b->core.cloud.points.count * 80, more;
     b->index = malloc(bytes);
     more = V(index_points)(&b->core.cloud, b->index, bytes);
     if (more > bytes) {

@@ -166,7 +166,7 @@ class Points(Shape):
     """The convex hull of points, each of dim coordinates. dim is needed only where there are none.
 
     indexed: once, at the first query, which of the points may be farthest in which direction is noted, and only these
-    are looked at from then on. That pays from about 100 points on, if they are asked about often: to note it takes
+    are looked at from then on. That pays from about 40 points on, if they are asked about often: to note it takes
     thousands of looks at all of them. Answers are as exact.
     """
 
