@@ -441,11 +441,26 @@ static APART int tell_flat_again(const shape *a, const shape *b, cache *own, int
     return 1;
 }
 
+/* From the corners that the cache lends on, in so many steps. 0: nothing is told. */
+static APART int go_on_lent(const flat *f, int *steps, const shape *a, const shape *b, cache *own, int sign_only,
+                            int deep, int max_steps, result *r)
+{
+    const goal g = {.sign_only = sign_only, .deep = deep, .max_steps = max_steps};
+    dfront k;
+    k.n = k.steps = k.around = k.under = 0;
+    recall_flat(f, &k, own);
+    if (k.n == 0) return 0;
+    const enum halt at = walk_flat(f, &k, &g);
+    *steps = k.steps;
+    return tell_walked_flat(f, &k, at, 1, a, b, own, &g, r);
+}
+
 /* 0: nothing is told. Else r is written as it is told of all bodies, its value 0 where they meet. */
 HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, result *r)
 {
     flat f;
     dfront k;
+    int steps = 0;
     if (a->support == pub(support_box) && b->support == pub(support_box)) return 0; /* told by their axes */
     if (tell_wide_sticks(a, b, g, r)) {
         if (own) own->count = 0; /* there is nothing that a formula would start from */
@@ -456,15 +471,12 @@ HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, res
         return 1;
     if (!set_flat(&f, a, b)) return 0;
     if (!holds_in_all(in_both(take_flat(&f.a, 0, f.c), take_flat(&f.b, 1, f.c)))) return 0;
-    k.n = k.steps = k.around = k.under = 0;
-    if (lent) recall_flat(&f, &k, own);
-    const int recalled = k.n;
-    if (!recalled) {
-        k.v = ddot(f.c, f.c) > 0 ? f.c : dvec_of(1, 0);
-        if (!g->sign_only && g->max_steps > 1) return tell_flat_start(&f, &k, a, b, own, g, r);
-    }
-    const enum halt at = walk_flat(&f, &k, g);
-    return tell_walked_flat(&f, &k, at, recalled, a, b, own, g, r);
+    if (lent && go_on_lent(&f, &steps, a, b, own, g->sign_only, g->deep, g->max_steps, r)) return 1;
+    k.n = k.around = k.under = 0;
+    k.steps = steps;
+    k.v = ddot(f.c, f.c) > 0 ? f.c : dvec_of(1, 0);
+    if (!g->sign_only && g->max_steps > steps + 1) return tell_flat_start(&f, &k, a, b, own, g, r);
+    return tell_walked_flat(&f, &k, walk_flat(&f, &k, g), 0, a, b, own, g, r);
 }
 
 #else

@@ -387,8 +387,9 @@ static APART void keep_flat(cache *own, const flat *f, uint32_t count, uint32_t 
 HOT const real *corner_there(const flat_body *s, unsigned at, const real was[DIM])
 {
     const size_t nth = nth_corner_at(s, at);
+    if ((at >= RUN && !has_more_than_run(s)) || nth >= s->count) return NULL;
     const real *x = s->v + s->step * nth;
-    return (at < RUN || has_more_than_run(s)) && nth < s->count && memcmp(x, was, DIM * sizeof *x) == 0 ? x : NULL;
+    return memcmp(x, was, DIM * sizeof *x) == 0 ? x : NULL;
 }
 
 /* From the corners of the last query, as far as they stand where they did. */
