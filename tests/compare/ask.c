@@ -173,7 +173,7 @@ static void ask_one(const peer *p, enum question question, const couple *c, void
 static void ask_of_all(const peer *p, enum question question, const fed *pairs, int from, int count, int track,
                        couple *made, reply *replies, volatile int *at)
 {
-    struct itimerval limit = {{0, 0}, {0, (int)(TIME_LIMIT * 1e6)}};
+    const struct itimerval limit = {{0, 0}, {0, (int)(TIME_LIMIT * 1e6)}}, none = {{0, 0}, {0, 0}};
     void *memory = p->memory ? calloc(1, p->memory) : NULL;
     for (int i = from; i < count; i++, ++*at) {
         if (!takes_pair(p, &pairs[i])) {
@@ -182,8 +182,10 @@ static void ask_of_all(const peer *p, enum question question, const fed *pairs, 
         if (memory && (track == 0 || i % track == 0)) {
             memset(memory, 0, p->memory);
         }
+        setitimer(ITIMER_VIRTUAL, &none, NULL); /* for what is made once, an index too, there is no limit */
+        const couple *c = couple_of(p, pairs, i, track, made);
         setitimer(ITIMER_VIRTUAL, &limit, NULL);
-        ask_one(p, question, couple_of(p, pairs, i, track, made), memory, &replies[i]);
+        ask_one(p, question, c, memory, &replies[i]);
     }
     free(memory);
 }
