@@ -630,6 +630,32 @@ static void of_fewer_points(void **state)
         }
     }
 }
+
+/* A sliver around a point, which is then beside it: three lent corners nearly in line tell nothing, and are no excuse
+ * for a wider bracket than without them. */
+static void of_a_sliver_left(void **state)
+{
+    static const real v[3][DIM] = {{(real)-0x1.77e41ep-4, (real)0x1.62621p-4},
+                                   {(real)-0x1.3eb282p-4, (real)-0x1.74b29ep-3},
+                                   {(real)0x1.8d2512p-3, (real)0x1.7a82fap-4}};
+    const V(points) points = {v[0], 3, 0, 0, (real)0x1.59d43cp-1};
+    const V(pose) sheared = {{(real)0x1.016572p+2, (real)0x1.13051cp+4, 0, (real)0x1.016572p+2}, {100, 30}};
+    const V(pose) beside = {{1, 0, 0, 1}, {98, 32}};
+    const V(shape) a = {V(support_points), &points, &sheared, 0}, b = {V(support_origin), NULL, &beside, 0};
+    V(options) o = default_options();
+    V(result) warm, cold;
+    (void)state;
+    o.cache = &cache;
+    start_cache();
+    assert_true(V(distance)(&a, &b, &o, &cold) >= 0);
+    cache.count = 3; /* as three corners that held the point are kept, in this order */
+    cache.reserved = 0x20100;
+    memcpy(cache.a, v, sizeof v);
+    memset(cache.b, 0, sizeof cache.b);
+    assert_true(V(distance)(&a, &b, &o, &warm) >= 0);
+    assert_true(warm.lower <= cold.upper && cold.lower <= warm.upper);
+    assert_true(warm.upper - warm.lower <= 2 * (cold.upper - cold.lower));
+}
 #endif
 
 static real cube_of_unknown_reach(const void *data, const real *dir, real *point)
@@ -716,6 +742,7 @@ int main(void)
         cmocka_unit_test(of_points_edited),
 #if DIM == 2
         cmocka_unit_test(of_fewer_points),
+        cmocka_unit_test(of_a_sliver_left),
 #endif
         cmocka_unit_test(of_the_pair_alone),
 #if DIM == 3

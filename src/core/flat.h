@@ -420,7 +420,8 @@ HOT void keep_nearest(cache *own, double part)
 }
 
 /* How far apart by the front that the cache lends, if it is still the nearest, or whether they meet: no corner is
- * placed but those of that front. 0: that does not tell. */
+ * placed but those of that front. What is asked is handed on as numbers: a goal by its address is written to memory at
+ * the door, for all. 0: that does not tell. */
 static APART int tell_flat_again(const shape *a, const shape *b, cache *own, int sign_only, int deep, result *r)
 {
     const goal g = {.sign_only = sign_only, .deep = deep};
