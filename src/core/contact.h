@@ -322,13 +322,13 @@ static int prove(depth *d, real *upper)
 
 /* Whether a corner lies beyond the lowest facet by so much, times how far out that facet's corners are, that the
  * surface must have a dent there, as where a corner beyond another facet by less than rounding was not seen. Half of it
- * is what the bound from below is charged. */
+ * is what the bound from below is charged, by a height that is no more than these are long; and half what rounds. */
 #define DENT (4 * UNIT)
 static int is_dented(depth *d, real width)
 {
     const facet *f = d->floor;
     real far = 0, top = -REAL_MAX;
-    for (int k = 0; k < DIM; k++) far = larger(peak(d->p.tip[f->v[k]].w), far);
+    for (int k = 0; k < DIM; k++) far = larger(length(d->p.tip[f->v[k]].w), far);
     if (!(width > DENT * far) || !same(f->n, d->along)) return 0;
     look_along(&d->sight, &d->q->d, f->n);
     for (int k = 0; k < DIM; k++) {
