@@ -188,6 +188,17 @@ static int make_square(sight *e, const search *q)
     return 1;
 }
 
+/* The pair that the weights single out, square to the simplex. Of a narrow one the weights may be off by more than the
+ * points may be moved: it is looked at once more then, with what the weights have become. */
+static int look_squarely(sight *e, const search *q)
+{
+    look_across(e, q);
+    if (make_square(e, q)) return 1;
+    if (!(e->moved > 0)) return 0;
+    look_across(e, q);
+    return make_square(e, q);
+}
+
 /* How far the corner x of the body leads up the way from the simplex's first. */
 static real rise_to(const sight *e, const body *k, const simplex *s, size_t member, const real rise[DIM + 1], vec x)
 {
@@ -333,8 +344,7 @@ static APART int tell_pair(search *q, const shape *a, const shape *b, const goal
     sight e;
     real radius_a = a->radius * q->d.scale, radius_b = b->radius * q->d.scale, rounded = UNIT * UNIT;
     weigh_walked(q, e.weight);
-    look_across(&e, q);
-    int square = make_square(&e, q);
+    int square = look_squarely(&e, q);
     real high = 256 * rounded + 32 * UNIT * e.moved;
     left->seen = 0;
     left->amid = corners_amid(&e, q->s.n, high);
