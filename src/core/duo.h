@@ -22,6 +22,9 @@ HOT duo duo_div(duo x, duo y) { return (duo){_mm_div_pd(x.c, y.c)}; }
 HOT duo duo_root(duo x) { return (duo){_mm_sqrt_pd(x.c)}; }
 HOT duo duo_size(duo x) { return (duo){_mm_andnot_pd(_mm_set1_pd(-0.0), x.c)}; }
 HOT duo duo_larger(duo x, duo y) { return (duo){_mm_max_pd(x.c, y.c)}; }
+HOT duo duo_smaller(duo x, duo y) { return (duo){_mm_min_pd(x.c, y.c)}; }
+/* Whether both of x are larger. */
+HOT int are_larger(duo x, duo y) { return _mm_movemask_pd(_mm_cmpgt_pd(x.c, y.c)) == 3; }
 /* v where x > y, else w. */
 HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
 {
@@ -50,6 +53,8 @@ HOT duo duo_div(duo x, duo y) { return (duo){_mm_div_ps(x.c, y.c)}; }
 HOT duo duo_root(duo x) { return (duo){_mm_sqrt_ps(x.c)}; }
 HOT duo duo_size(duo x) { return (duo){_mm_andnot_ps(_mm_set1_ps(-0.0f), x.c)}; }
 HOT duo duo_larger(duo x, duo y) { return (duo){_mm_max_ps(x.c, y.c)}; }
+HOT duo duo_smaller(duo x, duo y) { return (duo){_mm_min_ps(x.c, y.c)}; }
+HOT int are_larger(duo x, duo y) { return (_mm_movemask_ps(_mm_cmpgt_ps(x.c, y.c)) & 3) == 3; }
 HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
 {
     const __m128 mask = _mm_cmpgt_ps(x.c, y.c);
@@ -76,6 +81,8 @@ HOT duo duo_div(duo x, duo y) { return duo_of(x.c[0] / y.c[0], x.c[1] / y.c[1]);
 HOT duo duo_root(duo x) { return duo_of(root(x.c[0]), root(x.c[1])); }
 HOT duo duo_size(duo x) { return duo_of(size(x.c[0]), size(x.c[1])); }
 HOT duo duo_larger(duo x, duo y) { return duo_of(larger(x.c[0], y.c[0]), larger(x.c[1], y.c[1])); }
+HOT duo duo_smaller(duo x, duo y) { return duo_of(smaller(x.c[0], y.c[0]), smaller(x.c[1], y.c[1])); }
+HOT int are_larger(duo x, duo y) { return x.c[0] > y.c[0] && x.c[1] > y.c[1]; }
 /* v where x > y, else w. */
 HOT duo duo_where_larger(duo x, duo y, duo v, duo w)
 {
@@ -169,6 +176,17 @@ HOT duo duos_dot(duos x, duos y)
     REST(r = duo_add(r, duo_mul(x.c[i], y.c[i])));
     return r;
 }
+
+#if DIM == 3
+HOT duos duos_cross(duos x, duos y)
+{
+    duos r;
+    r.c[0] = duo_sub(duo_mul(x.c[1], y.c[2]), duo_mul(x.c[2], y.c[1]));
+    r.c[1] = duo_sub(duo_mul(x.c[2], y.c[0]), duo_mul(x.c[0], y.c[2]));
+    r.c[2] = duo_sub(duo_mul(x.c[0], y.c[1]), duo_mul(x.c[1], y.c[0]));
+    return r;
+}
+#endif
 
 HOT duo duos_dot_size(duos x, duos y)
 {

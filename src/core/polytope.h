@@ -307,12 +307,18 @@ static inline int place_roughly(const polytope *p, facet *f)
     return 1;
 }
 
+/* Puts a facet between these tips on the place, which knows of no other. */
+static inline void lay_facet(facet *f, const int16_t v[DIM])
+{
+    EACH(f->v[i] = v[i]; f->next[i] = ALONE);
+    f->done = f->gone = 0;
+}
+
 /* Takes the facet between these tips in. Returns its height. */
 static inline real put_facet(polytope *p, const int16_t v[DIM])
 {
     facet *f = &p->facet[p->facets++];
-    EACH(f->v[i] = v[i]; f->next[i] = ALONE);
-    f->done = f->gone = 0;
+    lay_facet(f, v);
     if (!place_roughly(p, f)) sharpen_facet(p, f);
     return f->height;
 }
@@ -463,6 +469,53 @@ static inline real put_facet_on(polytope *p, seam r, int t)
     int16_t v[3] = {r.v[0], r.v[1], (int16_t)t};
 #endif
     return put_facet(p, v);
+}
+
+#if DIM == 3
+HOT void lay_roughly(facet *f, seam r, int t, vec n, real height)
+{
+    const int16_t v[3] = {r.v[0], r.v[1], (int16_t)t};
+    lay_facet(f, v);
+    f->n = n;
+    f->height = height;
+    f->form = WIDE;
+    f->rough = ROUGH;
+}
+
+/* The same on two seams, side by side, each as place_roughly has it; or one after the other, if not both are WIDE. */
+HOT real put_two_on(polytope *p, const seam *r, int t)
+{
+    const real tall = TALL(ROUGH_NOISE);
+    const duos w0 = duos_at(p->tip[r[0].v[0]].w.c, p->tip[r[1].v[0]].w.c);
+    const duos w1 = duos_at(p->tip[r[0].v[1]].w.c, p->tip[r[1].v[1]].w.c), w2 = duos_both(p->tip[t].w);
+    const duos e0 = duos_sub(w1, w0), e1 = duos_sub(w2, w1), e2 = duos_sub(w0, w2), n = duos_cross(e0, e1);
+    const duo longest = duo_larger(duos_dot(e0, e0), duo_larger(duos_dot(e1, e1), duos_dot(e2, e2)));
+    const duo nn = duos_dot(n, n);
+    if (!are_larger(duo_mul(duo_both(4096), nn), duo_mul(longest, longest)) ||
+        !are_larger(nn, duo_mul(duo_both(tall * tall), longest))) {
+        const real first = put_facet_on(p, r[0], t);
+        return smaller(put_facet_on(p, r[1], t), first);
+    }
+    const duos unit = duos_mul(n, duo_div(duo_both(1), duo_root(nn)));
+    const duo height = duo_smaller(duos_dot(unit, w2), duo_smaller(duos_dot(unit, w1), duos_dot(unit, w0)));
+    facet *f = &p->facet[p->facets];
+    p->facets += 2;
+    lay_roughly(f, r[0], t, vec_of_a(unit), of_a(height));
+    lay_roughly(f + 1, r[1], t, vec_of_b(unit), of_b(height));
+    return smaller(of_a(height), of_b(height));
+}
+#endif
+
+/* On so many seams of the rim, which is all of it. Returns how low the facets are. */
+static inline real put_all_on(polytope *p, int rims, int t)
+{
+    real least = REAL_MAX;
+    int k = 0;
+#if DIM == 3
+    for (; k + 1 < rims; k += 2) least = smaller(put_two_on(p, &p->rim[k], t), least);
+#endif
+    for (; k < rims; k++) least = smaller(put_facet_on(p, p->rim[k], t), least);
+    return least;
 }
 
 /* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
@@ -620,13 +673,13 @@ enum growth { GROWN, FULL, LOWERED };
 static enum growth grow(polytope *p, facet *f, tip *t)
 {
     int before = p->facets;
-    real height = f->height, least = REAL_MAX;
+    const real height = f->height;
     if (p->tips == p->most_tips || before + 2 > p->most_facets) return FULL;
     int outs = clear_way(p, (int)(f - p->facet), t);
     enum growth end = p->rims == 0 ? LOWERED : before + p->rims > p->most_facets ? FULL : GROWN;
     const int rims = end == GROWN ? p->rims : 0, at = p->tips;
     p->tip[at] = *t;
-    for (int k = 0; k < rims; k++) least = smaller(put_facet_on(p, p->rim[k], at), least);
+    const real least = put_all_on(p, rims, at);
     if (end == GROWN && !p->without_rounding && height > 0 && !(least >= height - 64 * UNIT) &&
         !(sharpen_new(p, before) >= height - 64 * UNIT))
         end = LOWERED;
