@@ -111,15 +111,35 @@ static void settle_held(held *s, const outlook *o, real (*own)(duo), real grain,
     }
 }
 
-/* Of long lists runs of points that are all lower than that are passed over: how many, from at on. */
-static inline size_t lower_runs(const list *l, const real *at, size_t left, vec n, real least)
+/* How high a run of points stands along the way, step by step. Whether any is as high as that. */
+HOT int stand_as_high(const real *at, size_t step, const ways *way, real least, real about[RUN])
 {
     const lanes most = in_all(least);
-    const ways way = ways_of(n);
-    lanes none = in_all(0);
-    size_t k = 0;
-    while (k + RUN < left && !any_as_large(highest_in_run(at + k * l->step, l->step, &way, &none), most)) k += RUN;
-    return k;
+    int high = 0;
+    for (size_t k = 0; k < RUN; k += LANES) {
+        const lanes here = heights(at + k * step, step, way);
+        part_lanes(here, about + k);
+        high |= any_as_large(here, most);
+    }
+    return high;
+}
+
+/* What tells which of a body's corners may be the highest. */
+typedef struct watch {
+    const outlook *o;
+    real (*own)(duo);
+    real grain, margin; /* heights are off by half of that at most */
+    real least;         /* that is lower than one that has been seen */
+} watch;
+
+/* A corner that is about so high is held, if it may be the highest. */
+HOT void hold_corner(held *s, watch *w, const real *at, real about)
+{
+    if (about < w->least) return;
+    w->least = larger(about - w->margin, w->least);
+    if (s->n == HELD) settle_held(s, w->o, w->own, w->grain, w->least);
+    s->at[s->n] = at;
+    s->about[s->n++] = about;
 }
 
 /* Of the body's corners the one farthest along the way looked along, as settle_held has it. Rounded heights tell which
@@ -131,26 +151,22 @@ static vec farthest_corner(const outlook *o, const body *k, const shape *s, real
     EACH(rough.c[i] = own(duo_add(o->high.c[i], o->low.c[i])));
     if (is_box(s)) return box_corner(s, rough);
     const list l = corners_of(s);
-    const real margin = 16 * UNIT * (k->reach * grain) * spread(rough), *at = l.v;
-    const int many = l.count >= MANY && !unruly(grain);
-    real least = near ? dot(mul(*near, grain), rough) - margin : -REAL_MAX;
-    size_t i = 0;
+    const ways way = ways_of(mul(rough, grain));
+    const size_t in_runs = unruly(grain) ? 0 : l.count / RUN * RUN;
+    const real *at = l.v;
+    watch w = {o, own, grain, 16 * UNIT * (k->reach * grain) * spread(rough), -REAL_MAX};
+    if (near) w.least = dot(mul(*near, grain), rough) - w.margin;
     held some;
     some.n = 0;
     some.at[0] = at;
-    while (i < l.count) {
-        const size_t lower = many ? lower_runs(&l, at, l.count - i, mul(rough, grain), least) : 0;
-        const size_t end = many && l.count - i - lower > RUN ? i + lower + RUN : l.count;
-        for (i += lower, at += lower * l.step; i < end; i++, at += l.step) {
-            real about = dot(mul(load(at), grain), rough);
-            if (about < least) continue;
-            least = larger(about - margin, least);
-            if (some.n == HELD) settle_held(&some, o, own, grain, least);
-            some.at[some.n] = at;
-            some.about[some.n++] = about;
-        }
+    for (size_t i = 0; i < in_runs; i += RUN, at += RUN * l.step) {
+        real about[RUN];
+        if (!stand_as_high(at, l.step, &way, w.least, about)) continue;
+        for (size_t j = 0; j < RUN; j++) hold_corner(&some, &w, at + j * l.step, about[j]);
     }
-    settle_held(&some, o, own, grain, least);
+    for (size_t i = in_runs; i < l.count; i++, at += l.step)
+        hold_corner(&some, &w, at, dot(mul(load(at), grain), rough));
+    settle_held(&some, o, own, grain, w.least);
     return load(some.at[0]);
 }
 
