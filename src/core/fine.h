@@ -188,13 +188,21 @@ static int make_square(sight *e, const search *q)
     return 1;
 }
 
-/* The pair that the weights single out, square to the simplex. Of a narrow one the weights may be off by more than the
- * points may be moved: it is looked at once more then, with what the weights have become. */
+/* The pair that they single out is in the bodies. */
+static inline int are_shares(const real weight[DIM + 1], int n)
+{
+    int r = 1;
+    for (int k = 0; k < n; k++) r &= weight[k] >= 0;
+    return r;
+}
+
+/* The pair that the weights single out, square to the simplex. Of one that is not too narrow the weights may still be
+ * off by more than the points may be moved: it is looked at once more then, with what the weights have become. */
 static int look_squarely(sight *e, const search *q)
 {
     look_across(e, q);
     if (make_square(e, q)) return 1;
-    if (!(e->moved > 0)) return 0;
+    if (!(e->moved > 0) || !are_shares(e->weight, q->s.n)) return 0;
     look_across(e, q);
     return make_square(e, q);
 }

@@ -472,6 +472,7 @@ static inline real put_facet_on(polytope *p, seam r, int t)
 }
 
 #if DIM == 3
+/* Puts a facet from that seam to t, placed by its rounded tips, on the place. */
 HOT void lay_roughly(facet *f, seam r, int t, vec n, real height)
 {
     const int16_t v[3] = {r.v[0], r.v[1], (int16_t)t};
@@ -482,7 +483,8 @@ HOT void lay_roughly(facet *f, seam r, int t, vec n, real height)
     f->rough = ROUGH;
 }
 
-/* The same on two seams, side by side, each as place_roughly has it; or one after the other, if not both are WIDE. */
+/* Takes facets from two seams to t in, side by side, each as place_roughly has it; or one after the other, if not both
+ * are WIDE. Returns how low they are. */
 HOT real put_two_on(polytope *p, const seam *r, int t)
 {
     const real tall = TALL(ROUGH_NOISE);
@@ -506,7 +508,7 @@ HOT real put_two_on(polytope *p, const seam *r, int t)
 }
 #endif
 
-/* On so many seams of the rim, which is all of it. Returns how low the facets are. */
+/* From so many seams of the rim to t. Returns how low the facets are. */
 static inline real put_all_on(polytope *p, int rims, int t)
 {
     real least = REAL_MAX;

@@ -44,19 +44,6 @@ HOT lanes heights(const real *x, size_t step, const ways *d)
     return r;
 }
 
-/* Of a run, in each lane the highest; to all the heights are added. */
-static inline lanes highest_in_run(const real *x, size_t step, const ways *d, lanes *all)
-{
-    lanes most = heights(x, step, d);
-    *all = sums(*all, most);
-    for (int k = LANES; k < RUN; k += LANES) {
-        lanes next = heights(x + (size_t)k * step, step, d);
-        *all = sums(*all, next);
-        most = larger_ones(most, next);
-    }
-    return most;
-}
-
 /* ---- ties ---- */
 
 /* How far the computed heights of equals may lie apart: the rounding of two, 3 each, is within the licence of 8. */
