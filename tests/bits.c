@@ -14,10 +14,10 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x5bae16ea7dbe29a7, 0xd5c27d266ca8dd8a, 0x062cc32a984d168d};
+static const uint64_t known[3] = {0x5bae16ea7dbe29a7, 0xd5c27d266ca8dd8a, 0x93ea3190a14e3fec};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x7c6c9af3bd33475c, 0x872ab997e394d4e6, 0xfd3d4e2a0f0230ad};
+static const uint64_t known[3] = {0x7c6c9af3bd33475c, 0x872ab997e394d4e6, 0x696611f7a830ff62};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x1d195d5d1989e02a, 0x27f5406e2be30179, 0xee3cccbd7040c9e1};

@@ -402,7 +402,7 @@ static enum end grow_surface(depth *d)
 static int prove_grown(depth *d, real *upper, enum end *end)
 {
     const int proven = prove(d, upper);
-    if (!d->dips || is_bounded(d->q, *upper) || d->q->steps >= d->g->max_steps) return proven;
+    if (!lowest_dip(d) || is_bounded(d->q, *upper) || d->q->steps >= d->g->max_steps) return proven;
     d->closings = 0;
     *end = do_without_dips(d) ? grow_surface(d) : FAULT;
     return *end != FAULT && prove(d, upper);

@@ -15,6 +15,8 @@ typedef struct dip {
     real below;             /* and the bound from below that it gave */
     real height;            /* of A - B along n, at least */
     quadric bow, kink;      /* see bent, */
+    quadric part, rim;      /*   of cones' edges: */
+    int rimmed;             /*   there are some; */
     real bow_off, kink_off; /*   off by no more; */
     real slope, sway;       /*   at most */
     real floor;             /* no way out that is near n, as far as `at` is of account, is shorter */
@@ -29,15 +31,29 @@ static real reach_of_tip(const dip *f, real r)
     return root(larger(share * share - 1, 0) + 32 * UNIT) * (1 + 32 * UNIT);
 }
 
-/* How much the height is bowed, kinks and all, as seen from that far at least. */
-static real bow_within(const dip *f, real far)
+/* How much the height is bowed, kinks and all, as seen from that far at least; where cones' edges give that share. */
+static real bow_given(const dip *f, real far, real share)
 {
     quadric sum;
     const real k = 1 / (1 + f->sway * far), l = 1 / far;
     for (int i = 0; i < ACROSS; i++)
-        for (int j = 0; j <= i; j++) sum.c[i][j] = k * f->bow.c[i][j] + l * f->kink.c[i][j];
+        for (int j = 0; j <= i; j++)
+            sum.c[i][j] =
+                k * (f->bow.c[i][j] - share * f->part.c[i][j]) + l * (f->kink.c[i][j] + share * f->rim.c[i][j]);
     return least_value(&sum) - f->bow_off - l * f->kink_off -
            32 * UNIT * (size(sum.c[0][0]) + size(sum.c[ACROSS - 1][ACROSS - 1]));
+}
+
+/* So little of the bow may be given. */
+#define LEAST_GIVEN ((real)0x1p-5)
+
+/* The same with the share that proves most. */
+static real bow_within(const dip *f, real far)
+{
+    real most = bow_given(f, far, f->rimmed ? 1 : 0);
+    for (real share = (real)0.5; f->rimmed && share >= LEAST_GIVEN; share /= 2)
+        most = larger(bow_given(f, far, share), most);
+    return most;
 }
 
 /* Along ways that lead no farther from n A - B is at least as high as this, if it is to be as high as r. */

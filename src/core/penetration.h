@@ -751,6 +751,9 @@ static int take_dip(depth *d, const bent *b, dip *f)
     f->height = h - 8 * UNIT * (size(h) + 2) - q->d.doubt - b->height_off;
     f->bow = b->bow;
     f->kink = b->kink;
+    f->part = b->part;
+    f->rim = b->rim;
+    f->rimmed = b->slants != 0;
     f->bow_off = b->bow_off;
     f->kink_off = b->kink_off;
     f->sway = b->sway;

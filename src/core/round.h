@@ -220,7 +220,7 @@ typedef struct bent {
     vec n, e[ACROSS]; /* unit and square to one another, to rounding */
     real height, slope[ACROSS];
     quadric bow, kink;
-    quadric part;                                  /* of the bow, half of what cones' edges have */
+    quadric part, rim;                             /* what cones' edges may give of the bow, and get for it as a kink */
     real slope_off, bow_off, kink_off, height_off; /* by so much these may be off */
     real sway;              /* farther off, by t, the bow may be less, by the factor 1 + sway |t| */
     unsigned edges, slants; /* the limbs on whose edges n is to lie; of these, a cone's that are 0: */
@@ -273,17 +273,17 @@ static inline bearing bearing_of(const limb *l, vec n)
     return v;
 }
 
-/* What is so much, where that is not certain to be right: off by twice as much. */
+/* What is too much by this, where that is not certain to be below 0. */
 static inline void count_off(bent *b, real off, real slop)
 {
-    if (!(off < -slop)) b->height_off += 2 * (size(off) + slop);
+    if (!(off < -slop)) b->height_off += size(off) + slop;
 }
 
 /* A straight limb is no more than its slope; where its sign is not certain, or not that, n is off it. */
 static void add_straight(bent *b, const limb *l, real here, real sign)
 {
     b->height += sign * here;
-    count_off(b, -(sign * here), 8 * UNIT * l->size);
+    count_off(b, -2 * (sign * here), 16 * UNIT * l->size);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += sign * dot(l->row[0], b->e[j]);
 }
 
@@ -339,10 +339,11 @@ static void add_above(bent *b, const limb *l, const bearing *v)
 static void add_slant(bent *b, const limb *l, const bearing *v, int at)
 {
     const quadric before = b->bow;
+    const real share = (1 + b->sign[at]) / 2, least = smaller(share, 1 - share), given = share > 0 ? least / share : 0;
     real slope[ACROSS];
-    add_round(b, l, v->far, (1 + b->sign[at]) / 2, slope);
+    add_round(b, l, v->far, share, slope);
     for (int i = 0; i < ACROSS; i++)
-        for (int j = 0; j <= i; j++) b->part.c[i][j] += (b->bow.c[i][j] - before.c[i][j]) / 2;
+        for (int j = 0; j <= i; j++) b->part.c[i][j] += (b->bow.c[i][j] - before.c[i][j]) * given;
     b->of[b->rows] = at;
     b->off[b->rows] = v->here / 2;
     for (int j = 0; j < ACROSS; j++) {
@@ -350,9 +351,9 @@ static void add_slant(bent *b, const limb *l, const bearing *v, int at)
         b->slope[j] += b->d[b->rows][j];
     }
     b->rows++;
-    b->height_off += 2 * (size(v->here) + 16 * UNIT * l->steep);
+    b->height_off += size(v->here) + 16 * UNIT * l->steep;
     b->slope_off += 32 * UNIT * l->steep;
-    b->kink_off += 128 * UNIT * l->steep;
+    b->kink_off += 256 * UNIT * l->steep;
 }
 
 /* n is to lie along its axis, on the side of its disc; on the other it counts for nothing. */
@@ -540,7 +541,7 @@ static inline void start_bend(const rolling *s, bent *b)
     put_across(s->n, b->e);
     b->height = dot(s->of->middle, s->n);
     for (int j = 0; j < ACROSS; j++) b->slope[j] = dot(s->of->middle, b->e[j]);
-    b->bow = b->kink = b->part = (quadric){{{0}}};
+    b->bow = b->kink = b->part = b->rim = (quadric){{{0}}};
     b->slope_off = 32 * UNIT;
     b->bow_off = b->kink_off = b->height_off = b->sway = 0;
     b->edges = s->edges;
@@ -620,16 +621,15 @@ static meeting limb_met(const rolling *s, const bent *b, vec turn)
     return m;
 }
 
-/* What edges add. A cone's have half of their curvature, and half of their kink. */
+/* What edges add. A cone's are bowed, and have a kink for what of that they give. */
 static void add_kinks(const bulk *of, bent *b)
 {
-    for (int i = 0; i < ACROSS; i++)
-        for (int j = 0; j <= i; j++) b->bow.c[i][j] -= b->part.c[i][j];
     for (int r = 0; r < b->rows; r++) {
         const limb *l = &of->limb[b->of[r]];
-        const real size = is_on_slant(b, b->of[r]) ? l->steep : l->size;
+        const real steep = 1 - share_of_limb(b, b->of[r]);
         for (int j = 0; j < ACROSS; j++) b->slope[j] += b->share[r] * b->d[r][j];
-        add_square(&b->kink, b->d[r], 2 * (1 - share_of_limb(b, b->of[r])) / size);
+        if (is_on_slant(b, b->of[r])) add_square(&b->rim, b->d[r], 4 * steep / l->steep);
+        else add_square(&b->kink, b->d[r], 2 * steep / l->size);
     }
 }
 
