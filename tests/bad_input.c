@@ -477,6 +477,44 @@ static real silent_support(const void *data, const real *dir, real *point)
     return fake.reach;
 }
 
+/* Some points, each of them beyond the reach that is told, beside a smooth body. In float the sister sees them first.
+ */
+static void points_beyond_their_reach(void **state)
+{
+    static const size_t counts[] = {1, 2, 3, 40, 70};
+    static real v[70][DIM];
+    V(points) points = {.v = v[0]};
+    V(ellipsoid) round = {.radii = {1, (real)0.5}};
+    V(result) r;
+    (void)state;
+    for (int i = 0; i < 70; i++) {
+        v[i][i % DIM] = i / DIM % 2 ? 1 : -1;
+    }
+    round.radii[DIM - 1] = (real)0.75;
+    fresh(NULL);
+    a.shape.support = V(support_points);
+    a.shape.data = &points;
+    b.shape.support = V(support_ellipsoid);
+    b.shape.data = &round;
+    b.shape.pose = &b.pose;
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        for (int far = 0; far < 2; far++) {
+            points.count = counts[k];
+            b.pose.p[0] = far ? 3 : (real)0.5;
+            points.reach = (real)0.5;
+            expect_query(V(distance), &a.shape, &b.shape, NULL, GJK_BAD_SUPPORT);
+            expect_query(V(penetration), &b.shape, &a.shape, NULL, GJK_BAD_SUPPORT);
+            points.reach = V(points_reach)(&points);
+            assert_int_equal(V(distance)(&a.shape, &b.shape, NULL, &r), GJK_OK);
+            assert_true(!VARIANT_FLOAT || r.upper - r.lower <= 16 * (real)U); /* by her, sooner or later */
+            assert_true(V(penetration)(&a.shape, &b.shape, NULL, &r) >= 0);
+        }
+    }
+    points.count = 3;
+    a.shape.radius = REAL_MAX / 8;
+    expect(GJK_BAD_ARGUMENT);
+}
+
 /* What a support leaves in its point must be its own: whatever lay there before is no answer. */
 static void callback_writes_nothing(void **state)
 {
@@ -985,6 +1023,7 @@ int main(void)
         cmocka_unit_test_setup(indexes, fresh),
         cmocka_unit_test_setup(singular_poses, fresh),
         cmocka_unit_test_setup(callbacks_not_finite, fresh),
+        cmocka_unit_test_setup(points_beyond_their_reach, fresh),
         cmocka_unit_test_setup(callback_writes_nothing, fresh),
         cmocka_unit_test_setup(callback_reaches, fresh),
         cmocka_unit_test_setup(calls_are_counted, fresh),

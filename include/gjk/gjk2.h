@@ -127,9 +127,9 @@ GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_
  * where the compiler optimises, in float 35, its own room for corners included. */
 GJK_API int gjk2_penetration(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
- * 7264 bytes of stack, in float 4160; and in a library that holds this question in double too, float goes on in that
- * where it comes to its end, of round shapes, in room of its own. Calls may run at once unless they share a workspace;
- * what it holds before and after is of no account. */
+ * 7264 bytes of stack, in float 4160. Of smooth shapes, which float asks of its larger sister unless it is built with
+ * GJK_ALONE, it is her room, and a workspace is of use where it is larger than that. Calls may run at once unless they
+ * share a workspace; what it holds before and after is of no account. */
 GJK_API size_t gjk2_workspace_size(uint32_t corners);
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or

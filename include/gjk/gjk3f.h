@@ -130,9 +130,9 @@ GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gj
  * optimises, in float 52, its own room for corners included. */
 GJK_API int gjk3f_penetration(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
- * 13536 bytes of stack, in float 8352; and in a library that holds this question in float too, float goes on in that
- * where it comes to its end, of round shapes, in room of its own. Calls may run at once unless they share a workspace;
- * what it holds before and after is of no account. */
+ * 13536 bytes of stack, in float 8352. Of smooth shapes, which float asks of its larger sister unless it is built with
+ * GJK_ALONE, it is her room, and a workspace is of use where it is larger than that. Calls may run at once unless they
+ * share a workspace; what it holds before and after is of no account. */
 GJK_API size_t gjk3f_workspace_size(uint32_t corners);
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or

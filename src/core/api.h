@@ -660,14 +660,15 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
         q->flat = tell_flat(a, b, o->cache, g, r) ? TELLING : IN_VAIN;
         q->told = q->flat == TELLING;
     }
+    *end = STILL;
     if (DIM == 3 && q->thin == UNTRIED && q->listed && tell_wide_sticks(a, b, g, r)) {
         q->told = 1;
         if (o->cache) o->cache->count = 0;
     }
+    if (HAS_SISTER && !q->listed && !g->exact && !g->sign_only) q->told = ask_sister_first(q, a, b, o, g, end, r);
     if (q->told) {
         q->d.scale = leveler(larger(size(r->lower), size(r->upper))); /* what the status is found in */
         q->d.unscale = 1 / q->d.scale;
-        *end = STILL;
         return 0;
     }
     if (q->thin == UNTRIED && q->listed && are_thin(&q->d)) q->thin = tell_thin(&q->d, a, b, g, r);

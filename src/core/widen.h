@@ -6,6 +6,8 @@
 #define GJK_CORE_WIDEN_H
 
 #include "distance.h"
+#include "polytope.h"
+#include "round.h"
 #include "shapes.h"
 
 #if REAL_IS_DOUBLE || defined(GJK_ALONE)
@@ -20,6 +22,13 @@ static enum end ask_sister(search *q, const shape *a, const shape *b, const opti
 static int ask_sister_alone(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     (void)q, (void)a, (void)b, (void)o, (void)g, (void)r;
+    return 0;
+}
+
+static int ask_sister_first(search *q, const shape *a, const shape *b, const options *o, const goal *g, enum end *end,
+                            result *r)
+{
+    (void)q, (void)a, (void)b, (void)o, (void)g, (void)end, (void)r;
     return 0;
 }
 
@@ -68,20 +77,28 @@ static int take_numbers(widened *w, const shape *s, sister(support_fn) * support
 #define KIN(name, n)                                                                                                   \
     if (s->support == pub(name)) return take_numbers(w, s, sister(name), n)
 
-/* One point, or two: a segment of hers, whose corners she knows, where callbacks leave contact open. */
+/* One point, or two: a segment of hers, whose corners she knows, where callbacks leave contact open. 0: they are not
+ * within the reach that is told, which a segment of hers does not ask. */
 static int take_ends(widened *w, const points *p)
 {
     const real *end[2] = {p->v, p->v + (p->count - 1) * stride_of(p)};
-    for (int i = 0; i < 2 * DIM; i++) w->numbers[i] = (double)end[i / DIM][i % DIM];
+    const double reach = (double)p->reach * (1 + 16 * (double)UNIT);
+    for (int k = 0; k < 2; k++) {
+        double square = 0;
+        for (int i = 0; i < DIM; i++) square += (double)end[k][i] * (double)end[k][i];
+        if (p->reach > 0 && !(square <= reach * reach)) return 0;
+        for (int i = 0; i < DIM; i++) w->numbers[DIM * k + i] = (double)end[k][i];
+    }
     w->shape.support = sister(support_segment);
     w->shape.data = w->numbers;
     return 1;
 }
 
-/* The set in double. 0: it is nothing ready-made. */
+/* The set in double. 0: it is nothing ready-made, or there is none. */
 static int widen_set(widened *w, const shape *s)
 {
     KIN(support_origin, 0);
+    if (!s->data) return 0;
     KIN(support_segment, 2 * DIM);
     KIN(support_box, DIM);
     KIN(support_ball, 1);
@@ -92,7 +109,7 @@ static int widen_set(widened *w, const shape *s)
     KIN(support_cone, 2);
     KIN(support_disc, 1);
 #endif
-    if (s->support != pub(support_points)) return 0;
+    if (s->support != pub(support_points) || !cloud(s->data)) return 0;
     if (((const points *)s->data)->count <= 2) return take_ends(w, s->data);
     w->shape.support = widened_points;
     w->shape.data = s->data;
@@ -108,6 +125,30 @@ static int widen(widened *w, const shape *s)
     return widen_set(w, s);
 }
 
+/* Hulls of so few corners are widened with these. */
+#define WIDENED_MOST 64
+
+typedef struct widened_hull {
+    widened body;
+    sister(points) points;
+    double corners[WIDENED_MOST * DIM];
+} widened_hull;
+
+static int widen_hull(widened_hull *w, const shape *s)
+{
+    const points *p = s->data;
+    if (!widen(&w->body, s)) return 0;
+    if (w->body.shape.support != widened_points) return 1;
+    if (p->count > WIDENED_MOST || !(p->reach > 0)) return 0;
+    const size_t step = stride_of(p);
+    for (size_t n = 0; n < p->count; n++)
+        for (size_t i = 0; i < DIM; i++) w->corners[DIM * n + i] = (double)p->v[n * step + i];
+    w->points = (sister(points)){.v = w->corners, .count = p->count, .reach = (double)p->reach};
+    w->body.shape.support = sister(support_points);
+    w->body.shape.data = &w->points;
+    return 1;
+}
+
 static real rounded_down(double x)
 {
     real r = (real)x;
@@ -121,15 +162,16 @@ static real rounded_to_range(double x)
     return (real)(x > most ? most : x < -most ? -most : x);
 }
 
-/* Half of what was asked for, since the bounds are rounded once more, and no more digits than float can show. Of the
- * sign there are none, and known corners are told as well as they can be. */
-static sister(options) sister_options(const options *o, const search *q, const goal *g)
+/* Somewhat less than was asked for, since the bounds are rounded once more, and no more digits than float can show,
+ * unless all of them cost no more. Of the sign there are none, and known corners are told as well as they can be. */
+static sister(options) sister_options(const options *o, const search *q, const goal *g, int all)
 {
     sister(options) r = {.size = sizeof r, .max_steps = o->max_steps - (uint32_t)q->steps};
     r.slack = (double)o->slack;
     if (g->sign_only || g->exact) return r;
     r.abs_tol = (double)o->abs_tol / 2;
-    r.rel_tol = (double)larger(o->rel_tol / 2, UNIT / 4);
+    r.rel_tol = (double)(o->rel_tol - smaller(o->rel_tol / 2, 16 * UNIT));
+    if (!all) r.rel_tol = r.rel_tol > (double)UNIT / 4 ? r.rel_tol : (double)UNIT / 4;
     r.cutoff = (double)o->cutoff;
     return r;
 }
@@ -163,16 +205,22 @@ static void take_better(result *r, const sister(result) * hers, real lower, real
     }
 }
 
+static int ask_of_wide(const sister(shape) * a, const sister(shape) * b, const sister(options) * asked, const goal *g,
+                       sister(result) * hers)
+{
+    return g->sign_only ? sister(intersect)(a, b, asked, hers)
+           : g->deep    ? sister(penetration)(a, b, asked, hers)
+                        : sister(distance)(a, b, asked, hers);
+}
+
 /* Puts the question to the sister. Her status; below 0: she can't be asked or has no answer. */
 static APART int hear_sister(const search *q, const shape *a, const shape *b, const options *o, const goal *g,
                              sister(result) * hers)
 {
     widened wide_a, wide_b;
-    sister(options) asked = sister_options(o, q, g);
+    sister(options) asked = sister_options(o, q, g, have_heights(a, b));
     if (q->steps >= g->max_steps || !widen(&wide_a, a) || !widen(&wide_b, b)) return GJK_BAD_ARGUMENT;
-    return g->sign_only ? sister(intersect)(&wide_a.shape, &wide_b.shape, &asked, hers)
-           : g->deep    ? sister(penetration)(&wide_a.shape, &wide_b.shape, &asked, hers)
-                        : sister(distance)(&wide_a.shape, &wide_b.shape, &asked, hers);
+    return ask_of_wide(&wide_a.shape, &wide_b.shape, &asked, g, hers);
 }
 
 /* And takes what is better of her answer; her steps and calls are counted. FAULT: there is none, and nothing is
@@ -196,10 +244,9 @@ static int is_final(const sister(result) * hers, const goal *g)
     return g->sign_only || hers->upper - hers->lower <= 8 * (double)UNIT * hers->upper;
 }
 
-/* All of the answer is hers, if that is her status. 0: it is not final, or float can't spell it. */
-static int take_alone(result *r, const sister(result) * hers, int status, const goal *g)
+/* All of the answer is hers. 0: float can't spell it. */
+static int take_over_all(result *r, const sister(result) * hers)
 {
-    if (status < 0 || status == GJK_LIMIT || !is_final(hers, g)) return 0;
     const real lower = rounded_down(hers->lower), upper = -rounded_down(-hers->upper);
     if (!(lower > -REAL_MAX && upper < REAL_MAX)) return 0;
     r->lower = -REAL_MAX;
@@ -209,6 +256,12 @@ static int take_alone(result *r, const sister(result) * hers, int status, const 
     r->supports = hers->supports;
     r->reserved = 0;
     return 1;
+}
+
+/* The same, if that is her status. 0: it is not final, either. */
+static int take_alone(result *r, const sister(result) * hers, int status, const goal *g)
+{
+    return status >= 0 && status != GJK_LIMIT && is_final(hers, g) && take_over_all(r, hers);
 }
 
 /* The same of boxes, or what a formula tells, where so near to contact float can't: what she sees at a glance costs
@@ -223,6 +276,31 @@ static APART int ask_sister_alone(search *q, const shape *a, const shape *b, con
     return take_alone(r, &hers, status, g);
 }
 
+/* For a polytope of hers the caller's workspace, where there is room in it for more than she has of her own. */
+static void lend_room(sister(options) * asked, const options *o)
+{
+    const size_t skew = (uintptr_t)o->workspace % sizeof(double);
+    if (!o->workspace || o->workspace_bytes - skew < sister(workspace_size)(USUAL_TIPS + 1)) return;
+    asked->workspace = (char *)o->workspace + skew;
+    asked->workspace_bytes = o->workspace_bytes - (uint32_t)skew;
+}
+
+/* Smooth bodies, of which float leaves more doubt than is asked as a rule: all of the answer is hers, however far she
+ * came. 0: she can't be asked, or has no answer that float can spell. */
+static APART int ask_sister_first(search *q, const shape *a, const shape *b, const options *o, const goal *g,
+                                  enum end *end, result *r)
+{
+    sister(result) hers;
+    widened_hull wide_a, wide_b;
+    q->steps = 0;
+    if (!sound(a) || !sound(b) || !widen_hull(&wide_a, a) || !widen_hull(&wide_b, b)) return 0;
+    sister(options) asked = sister_options(o, q, g, have_heights(a, b));
+    if (g->deep) lend_room(&asked, o);
+    const int status = ask_of_wide(&wide_a.body.shape, &wide_b.body.shape, &asked, g, &hers);
+    *end = status == GJK_LIMIT ? OPEN : STILL;
+    return status >= 0 && take_over_all(r, &hers);
+}
+
 #endif
 
 /* ---- near contact ---- */
@@ -235,30 +313,6 @@ static int ask_sister_near(const search *q, const shape *a, const shape *b, cons
 }
 
 #else
-
-/* Hulls of so few corners are widened with these. */
-#define WIDENED_MOST 64
-
-typedef struct widened_hull {
-    widened body;
-    sister(points) points;
-    double corners[WIDENED_MOST * DIM];
-} widened_hull;
-
-static int widen_hull(widened_hull *w, const shape *s)
-{
-    const points *p = s->data;
-    if (!widen(&w->body, s)) return 0;
-    if (w->body.shape.support != widened_points) return 1;
-    if (p->count > WIDENED_MOST || !(p->reach > 0)) return 0;
-    const size_t step = stride_of(p);
-    for (size_t n = 0; n < p->count; n++)
-        for (size_t i = 0; i < DIM; i++) w->corners[DIM * n + i] = (double)p->v[n * step + i];
-    w->points = (sister(points)){.v = w->corners, .count = p->count, .reach = (double)p->reach};
-    w->body.shape.support = sister(support_points);
-    w->body.shape.data = &w->points;
-    return 1;
-}
 
 /* What she starts from: the simplex that float's search has led to. */
 static void lend_simplex(sister(cache) * k, const search *q, const sister(shape) * a, const sister(shape) * b)
@@ -287,7 +341,7 @@ static APART int ask_sister_near(const search *q, const shape *a, const shape *b
     widened_hull wide_a, wide_b;
     if (q->steps >= g->max_steps || !widen_hull(&wide_a, a) || !widen_hull(&wide_b, b)) return 0;
     const sister(shape) *of_a = &wide_a.body.shape, *of_b = &wide_b.body.shape;
-    sister(options) asked = sister_options(o, q, g);
+    sister(options) asked = sister_options(o, q, g, 0);
     lend_simplex(&k, q, of_a, of_b);
     asked.cache = &k;
     const int status =
