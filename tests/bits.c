@@ -17,13 +17,13 @@
 static const uint64_t known[3] = {0x5bae16ea7dbe29a7, 0xd5c27d266ca8dd8a, 0x93ea3190a14e3fec};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x88246c9ba672a839, 0xe548584337451a0c, 0x167ab4ea6a986a4d};
+static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xe548584337451a0c, 0x7663e134cb1f7705};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x1d195d5d1989e02a, 0x27f5406e2be30179, 0xee3cccbd7040c9e1};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x18e620ee05496a83, 0x728d709d640c6ed1, 0x37f5344369e50d14};
+static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0x5d1a0d1e5888a582};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

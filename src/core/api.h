@@ -669,6 +669,8 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
     if (q->told) {
         q->d.scale = leveler(larger(size(r->lower), size(r->upper))); /* what the status is found in */
         q->d.unscale = 1 / q->d.scale;
+        q->d.doubt = 2 * UNIT; /* of an answer of the sister's, which may be wide */
+        q->d.slack = 0;
         return 0;
     }
     if (q->thin == UNTRIED && q->listed && are_thin(&q->d)) q->thin = tell_thin(&q->d, a, b, g, r);

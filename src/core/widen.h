@@ -162,7 +162,7 @@ static real rounded_to_range(double x)
     return (real)(x > most ? most : x < -most ? -most : x);
 }
 
-/* Somewhat less than was asked for, since the bounds are rounded once more, and no more digits than float can show,
+/* Somewhat more than was asked for, since the bounds are rounded once more, and no more digits than float can show,
  * unless all of them cost no more. Of the sign there are none, and known corners are told as well as they can be. */
 static sister(options) sister_options(const options *o, const search *q, const goal *g, int all)
 {
@@ -172,7 +172,7 @@ static sister(options) sister_options(const options *o, const search *q, const g
     r.abs_tol = (double)o->abs_tol / 2;
     r.rel_tol = (double)(o->rel_tol - smaller(o->rel_tol / 2, 16 * UNIT));
     if (!all) r.rel_tol = r.rel_tol > (double)UNIT / 4 ? r.rel_tol : (double)UNIT / 4;
-    r.cutoff = (double)o->cutoff;
+    r.cutoff = (double)o->cutoff * (1 + 4 * (double)UNIT);
     return r;
 }
 
@@ -276,17 +276,21 @@ static APART int ask_sister_alone(search *q, const shape *a, const shape *b, con
     return take_alone(r, &hers, status, g);
 }
 
-/* For a polytope of hers the caller's workspace, where there is room in it for more than she has of her own. */
+/* For a polytope of hers the caller's workspace, where there is room in it for more than she has of her own: as much as
+ * so many corners of float's take, wherever it lies. */
 static void lend_room(sister(options) * asked, const options *o)
 {
+    if (!o->workspace) return;
+    const size_t bytes = bytes_for(tips_in(o->workspace_bytes)) - sizeof(real);
     const size_t skew = (uintptr_t)o->workspace % sizeof(double);
-    if (!o->workspace || o->workspace_bytes - skew < sister(workspace_size)(USUAL_TIPS + 1)) return;
+    if (bytes < sister(workspace_size)(USUAL_TIPS + 1)) return;
     asked->workspace = (char *)o->workspace + skew;
-    asked->workspace_bytes = o->workspace_bytes - (uint32_t)skew;
+    asked->workspace_bytes = (uint32_t)bytes;
 }
 
 /* Smooth bodies, of which float leaves more doubt than is asked as a rule: all of the answer is hers, however far she
- * came. 0: she can't be asked, or has no answer that float can spell. */
+ * came. BEYOND: so far as rounding let her, or the cutoff. 0: she can't be asked, or has no answer that float can
+ * spell. */
 static APART int ask_sister_first(search *q, const shape *a, const shape *b, const options *o, const goal *g,
                                   enum end *end, result *r)
 {
@@ -297,7 +301,7 @@ static APART int ask_sister_first(search *q, const shape *a, const shape *b, con
     sister(options) asked = sister_options(o, q, g, have_heights(a, b));
     if (g->deep) lend_room(&asked, o);
     const int status = ask_of_wide(&wide_a.body.shape, &wide_b.body.shape, &asked, g, &hers);
-    *end = status == GJK_LIMIT ? OPEN : STILL;
+    *end = status == GJK_OK ? STILL : status == GJK_LIMIT ? OPEN : BEYOND;
     return status >= 0 && take_over_all(r, &hers);
 }
 
