@@ -14,7 +14,7 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x5bae16ea7dbe29a7, 0xd5c27d266ca8dd8a, 0x93ea3190a14e3fec};
+static const uint64_t known[3] = {0x7b5eb1529855fb00, 0xc57e6a5c5fbbfebe, 0x7a31e268b68fa91c};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
 static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xe548584337451a0c, 0x7663e134cb1f7705};

@@ -1199,6 +1199,54 @@ static void cones_in_each_other(void **state)
            (double)steps / (double)deep);
     assert_true(is_share(deep, 4 * pairs_per_family, 0.5) && is_share(tight, deep, 0.98) && steps < 18 * deep);
 }
+
+/* The turn to the way out led along the edge of one that is 250 times as wide as tall, and off it by what that bends.
+ */
+static void spell_flat_cones(void)
+{
+    static const double sizes[2][2] = {{0x1.d16718p-1, 0x1.e4d6dap-2}, {0x1.20e93ep+4, 0x1.296d58p-4}};
+    static const double poses[2][12] = {
+        {0x1.a2f1acp-2, 0x1.ca0ac8p-1, -0x1.6ff9cap-3, 0x1.a81182p-1, -0x1.2038d4p-2, 0x1.f0274p-2, 0x1.88143ap-2,
+         -0x1.6360d6p-2, -0x1.b65634p-1, -0x1.ca2214p-1, 0x1.065e1ep-1, 0x1.5dd10cp-2},
+        {-0x1.3ccccap-7, -0x1.fff9d6p-1, -0x1.96c8fap-11, 0x1.f895fap-1, -0x1.33ec2cp-7, -0x1.5abba4p-3, 0x1.5ab3a4p-3,
+         -0x1.3ac3bep-9, 0x1.f89bcep-1, -0x1.ed0c62p-1, 0x1.649f8ap-2, 0x1.dfe3d2p-5}};
+    for (int k = 0; k < 2; k++) {
+        body *b = k == 0 ? &drawn.a : &drawn.b;
+        start_body(b, CONE);
+        b->radius = (real)sizes[k][0];
+        b->half_length = (real)sizes[k][1];
+        for (int i = 0; i < 12; i++) {
+            *(i < 9 ? &b->pose.m[i] : &b->pose.p[i - 9]) = (real)poses[k][i];
+        }
+    }
+}
+
+/* A cone in a flat and wide one, along whose edge directions bend the most. */
+static void cones_in_flat_ones(void **state)
+{
+    static figures s;
+    (void)state;
+    s.name = "cones in flat ones";
+    for (at = 0; at < 4 * pairs_per_family; at++) {
+        draws d = draws_from(seed, 2005, (uint64_t)at);
+        draw_any(&d, &drawn.a, CONE);
+        draw_any(&d, &drawn.b, CONE);
+        drawn.b.radius *= (real)between(&d, 5, 15);
+        drawn.b.half_length *= (real)0.1;
+        for (int i = 0; i < DIM; i++) {
+            drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)between(&d, -0.5, 0.5);
+        }
+        bind_pair(&drawn);
+        ask_about_pair(&s);
+    }
+    spell_flat_cones();
+    bind_pair(&drawn);
+    ask_about_pair(&s);
+    print_figures(&s);
+    print_faults(&s.faults, s.name);
+    assert_true(s.deep > pairs_per_family);
+    assert_int_equal(s.faults.count, 0);
+}
 #endif
 
 /* ---- cores that are small beside their radii ---- */
@@ -1945,6 +1993,7 @@ int main(int argc, char **argv)
 #if DIM == 3
         cmocka_unit_test(tips_next_to_axes),
         cmocka_unit_test(cones_in_each_other),
+        cmocka_unit_test(cones_in_flat_ones),
 #endif
         cmocka_unit_test(small_cores),
         cmocka_unit_test(last_places_of_depths),

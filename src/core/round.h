@@ -353,7 +353,7 @@ static void add_slant(bent *b, const limb *l, const bearing *v, int at)
     b->rows++;
     b->height_off += size(v->here) + 16 * UNIT * l->steep;
     b->slope_off += 32 * UNIT * l->steep;
-    b->kink_off += 256 * UNIT * l->steep;
+    b->kink_off += 256 * UNIT * l->steep * larger(1, l->size / v->far);
 }
 
 /* n is to lie along its axis, on the side of its disc; on the other it counts for nothing. */
@@ -715,12 +715,38 @@ static enum rolled roll_by(rolling *s, const bent *b, real t[ACROSS])
     return m.limb < 0 && is_at_rest(b, t, far) ? RESTS : ROLLS_ON;
 }
 
-/* What there is where n has come to rest, its edges' shares and kinks with it. 0: they do not hold it. */
+#if DIM == 3
+/* How far n is off the cones' edges that it is to lie on: it is turned there, square to these. 0: it is on them, to
+ * rounding. */
+static int return_to_slant(rolling *s, const bent *b)
+{
+    real t[ACROSS], off = 0;
+    for (int r = 0; r < b->rows; r++)
+        if (is_on_slant(b, b->of[r])) off = larger(size(b->off[r]), off);
+    if (!(off > 16 * UNIT)) return 0;
+    if (b->rows == ACROSS) {
+        bent at = *b;
+        roll_to_corner(&at, t);
+    } else {
+        const real square = b->d[0][0] * b->d[0][0] + b->d[0][1] * b->d[0][1];
+        for (int j = 0; j < ACROSS; j++) t[j] = -b->off[0] * b->d[0][j] / square;
+    }
+    s->n = add(s->n, turn_of(b, t));
+    s->n = mul(s->n, 1 / length(s->n));
+    return 1;
+}
+#endif
+
+/* What there is where n has come to rest, its edges' shares and kinks with it. 0: they do not hold it. The last turn
+ * led along what is a curve on a cone, and so off its edge by what that bends. */
 static int come_to_rest(rolling *s, bent *b)
 {
     real t[ACROSS];
     s->left = -1;
     bend(s, b);
+#if DIM == 3
+    for (int i = 0; i < 2 && return_to_slant(s, b); i++) bend(s, b);
+#endif
     roll(b, s->most, t);
     for (int r = 0; r < b->rows; r++) /* as the curvature has them */
         if (is_on_slant(b, b->of[r])) b->share[r] = b->sign[b->of[r]];
