@@ -251,7 +251,9 @@ def test_a_ball_and_a_box(precision, dim):
     ],
 )
 def test_round_shapes(precision, a, b, depth):
-    result = gjk.penetration(a, b, precision=precision, corners=2000, max_steps=5000)
+    # In float the workspace is lent to the sister in double, whose corners take more room.
+    corners = 2000 if precision == "double" else 3400
+    result = gjk.penetration(a, b, precision=precision, corners=corners, max_steps=5000)
     assert result.lower <= -depth <= result.upper
     assert inside(result)
     assert result.upper - result.lower < 0.01  # of balls about one centre no direction is the best
@@ -267,9 +269,12 @@ def test_more_corners_no_wider_a_bracket(precision):
     ]
     widths = [result.upper - result.lower for result in asked]
     assert widths == sorted(widths, reverse=True)
-    assert widths[0] > 1e6 * widths[4] if precision == "double" else widths[0] > 100 * widths[4]
     assert max(result.lower for result in asked) <= min(result.upper for result in asked)
-    assert asked[0].status is Status.LIMIT
+    if precision == "double":
+        assert widths[0] > 1e6 * widths[4]
+        assert asked[0].status is Status.LIMIT
+    else:
+        assert asked[0] == asked[3]  # float's sister in double has room for 64 of her own
     assert widths[4] < (1e-13 if precision == "double" else 2e-6)
 
 
