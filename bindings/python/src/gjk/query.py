@@ -174,8 +174,8 @@ def penetration(
     The depth is sought by a polytope that grows within the difference of the shapes. corners is how many it may have,
     from 8 to 16000. Where they run out (Status.LIMIT) the bracket holds, and is wider than asked. 64, the default, do
     for everyday bodies with corners, and for round ones unless they are all but concentric; C takes the room for them
-    from its stack, other numbers cost an allocation a call. Round bodies in float are asked in double, whose corners take
-    more room: that has 64 at least, and above 105 some 0.6 of corners.
+    from its stack, other numbers cost an allocation a call. Round bodies in float are asked in double, whose corners
+    take more room: of these it has 64, or some 0.6 of corners where that is more.
     The other options are those of `distance`.
     """
     v = _variant(a, b, precision)
