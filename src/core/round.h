@@ -716,17 +716,16 @@ static enum rolled roll_by(rolling *s, const bent *b, real t[ACROSS])
 }
 
 #if DIM == 3
-/* How far n is off the cones' edges that it is to lie on: it is turned there, square to these. 0: it is on them, to
- * rounding. */
-static int return_to_slant(rolling *s, const bent *b)
+/* Turns n back onto the cones' edges that it is to lie on, square to these. What b shares is then to be told anew. 0:
+ * it is on them, to rounding. */
+static int return_to_slant(rolling *s, bent *b)
 {
     real t[ACROSS], off = 0;
     for (int r = 0; r < b->rows; r++)
         if (is_on_slant(b, b->of[r])) off = larger(size(b->off[r]), off);
     if (!(off > 16 * UNIT)) return 0;
     if (b->rows == ACROSS) {
-        bent at = *b;
-        roll_to_corner(&at, t);
+        roll_to_corner(b, t);
     } else {
         const real square = b->d[0][0] * b->d[0][0] + b->d[0][1] * b->d[0][1];
         for (int j = 0; j < ACROSS; j++) t[j] = -b->off[0] * b->d[0][j] / square;

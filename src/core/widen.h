@@ -162,7 +162,7 @@ static real rounded_to_range(double x)
     return (real)(x > most ? most : x < -most ? -most : x);
 }
 
-/* Somewhat more than was asked for, since the bounds are rounded once more, and no more digits than float can show,
+/* Somewhat tighter than was asked for, since the bounds are rounded once more, with no more digits than float can show,
  * unless all of them cost no more. Of the sign there are none, and known corners are told as well as they can be. */
 static sister(options) sister_options(const options *o, const search *q, const goal *g, int all)
 {
