@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x7b5eb1529855fb00, 0xc57e6a5c5fbbfebe, 0x7a31e268b68fa91c};
+static const uint64_t known[3] = {0x5193caa18a1ef69f, 0x71088c4ef6299659, 0x2ba917a4b7785d25};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xe548584337451a0c, 0x7663e134cb1f7705};
+static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xe548584337451a0c, 0xe4d50d24f2453ef4};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x1d195d5d1989e02a, 0x27f5406e2be30179, 0xee3cccbd7040c9e1};
+static const uint64_t known[3] = {0x6bf3e15c6ffe9977, 0x27f5406e2be30179, 0x7707968b1491392a};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0x5d1a0d1e5888a582};
+static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0x422afc2e674cbf2c};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

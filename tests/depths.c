@@ -1090,11 +1090,12 @@ static void as_well_as_hidden(void **state)
     assert_true(closed > 5 * pairs_per_family && thin > pairs_per_family);
 }
 
-/* Ellipsoids all but concentric, with many ways out about as short: where the usual room is full before the surface is
- * done, the value is that of the best direction nearby, as a larger room finds it; of a few it is that of another. */
+/* Ellipsoids all but concentric, with many ways out about as short: an ellipsoid within proves the shortest, as a rule.
+ * Of supports that are not known the usual room is full before the surface is done, and the value is that of the best
+ * direction nearby, as a larger room finds it; of a few it is that of another. */
 static void all_but_concentric(void **state)
 {
-    long limits = 0, near = 0, astray = 0;
+    long open = 0, limits = 0, near = 0, astray = 0;
     (void)state;
     for (at = 0; at < pairs_per_family; at++) {
         V(options) o = default_options();
@@ -1110,19 +1111,25 @@ static void all_but_concentric(void **state)
         p = &drawn;
         find_truth_of_pair();
         ask_for_truth(NULL, &r);
+        open += r.status == GJK_LIMIT;
+        const V(shape) a = hidden(&drawn.a.shape), b = hidden(&drawn.b.shape);
+        V(penetration)(&a, &b, NULL, &r);
+        expect_answer("the bracket misses the truth", &r, !(missed(&r) > 0));
         if (r.status != GJK_LIMIT) {
             continue;
         }
         o.workspace = room.bytes;
         o.workspace_bytes = (uint32_t)V(workspace_size)(LARGER_ROOM);
-        ask_for_truth(&o, &larger);
+        V(penetration)(&a, &b, &o, &larger);
+        expect_answer("the bracket misses the truth", &larger, !(missed(&larger) > 0));
         off = fabs((double)r.value - (double)larger.value);
         limits++;
         near += off <= fmax(USUAL_GOAL, 512 * U) * span();
         astray += off > width_of(&r) / 4;
     }
-    printf("%-6s all but concentric: %ld limits, %ld of them as a larger room has it, %ld astray\n", VARIANT, limits,
-           near, astray);
+    printf("%-6s all but concentric: %ld limits; hidden %ld, %ld of them as a larger room has it, %ld astray\n",
+           VARIANT, open, limits, near, astray);
+    assert_true(open <= pairs_per_family / 20);
     assert_true(DIM == 2 || limits > pairs_per_family / 20);
     assert_true(is_share(near, limits, 0.9));
     assert_int_equal(astray, 0);
@@ -1231,7 +1238,7 @@ static void cones_in_flat_ones(void **state)
         draws d = draws_from(seed, 2005, (uint64_t)at);
         draw_any(&d, &drawn.a, CONE);
         draw_any(&d, &drawn.b, CONE);
-        drawn.b.radius *= (real)between(&d, 5, 15);
+        drawn.b.radius *= (real)between(&d, 5, 30);
         drawn.b.half_length *= (real)0.1;
         for (int i = 0; i < DIM; i++) {
             drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)between(&d, -0.5, 0.5);

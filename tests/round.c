@@ -298,6 +298,57 @@ static void edges_of_cones_are_bowed_enough(void **state)
 }
 #endif
 
+/* The lowest of the dips that are found from here and there, by its height. */
+static real lowest_dip_seen(void)
+{
+    real lowest = REAL_MAX;
+    for (int turn = 0; turn < TURNS_EACH; turn++) {
+        vec n;
+        bent b;
+        EACH(n.c[i] = (real)any_between(-1, 1));
+        if (find_least(&of_both, mul(n, 1 / length(n)), NULL, &b)) {
+            lowest = smaller(b.height, lowest);
+        }
+    }
+    return lowest;
+}
+
+/* Where an ellipsoid within says that no way out is shorter than a dip, none is found; and it does as a rule where both
+ * are ellipsoids, wherever they are. */
+static void no_way_is_shorter_than_told(void **state)
+{
+    long overlaps = 0, told = 0, others = 0, round = 0, round_told = 0;
+    (void)state;
+    state_of_draws = 11;
+    for (int k = 0; k < 2 * PAIRS; k++) {
+        const int are_round = k % 4 == 0;
+        if (are_round) {
+            draw_pair(kinds[0], kinds[0], 1);
+        } else {
+            draw_any_pair(k / 4 + k, pow(10, any_between(-3, 0.3)));
+        }
+        for (int i = 0; i < 2; i++) {
+            numbers[i][k % 3] /= k % 5 == 0 ? 30 : 1; /* flat ones and long ones */
+        }
+        if (!find_dip(k % 2) || !(least.height > CLEAR)) {
+            continue;
+        }
+        overlaps++;
+        round += are_round;
+        const real lowest = lowest_dip_seen();
+        others += lowest < least.height - 256 * (real)UNIT;
+        if (!is_least_of_all(&least, room_of_ball(&of_both, &least), 64 * (real)UNIT, (real)0.125)) {
+            continue;
+        }
+        told++;
+        round_told += are_round;
+        assert_true(lowest > least.height - 256 * (real)UNIT);
+    }
+    printf("no way shorter: told of %ld of %ld, %ld of which are not the lowest; of ellipsoids %ld of %ld\n", told,
+           overlaps, others, round_told, round);
+    assert_true(overlaps > PAIRS && others > overlaps / 8 && told > overlaps / 4 && round_told > round * 8 / 10);
+}
+
 /* The gap of round bodies is found by one corner more than the first, as a rule. */
 static void a_gap_needs_no_walk(void **state)
 {
@@ -395,6 +446,7 @@ int main(void)
 #if DIM == 3
         cmocka_unit_test(edges_of_cones_are_bowed_enough),
 #endif
+        cmocka_unit_test(no_way_is_shorter_than_told),
         cmocka_unit_test(a_gap_needs_no_walk),
 #if DIM == 3
         cmocka_unit_test(no_way_out),

@@ -16,12 +16,12 @@
 /* What the header says, in bytes: of distance and intersect, and of penetration; with a workspace of the caller's so
  * much less, but where that is not what takes the most. In float some bodies may go on in double. */
 #if VARIANT_FLOAT
-#define WIDENED_STACK (DIM == 3 ? 52000 : 34000)
+#define WIDENED_STACK (DIM == 3 ? 52000 : 35000)
 #define DISTANCE_STACK (DIM == 3 ? 27000 : 22000)
-#define PENETRATION_STACK (DIM == 3 ? 52000 : 35000)
+#define PENETRATION_STACK (DIM == 3 ? 52000 : 36000)
 #define SAVED (DIM == 3 ? 0 : V(workspace_size)(64) / 2)
 #else
-#define DISTANCE_STACK (DIM == 3 ? 50000 : 34000)
+#define DISTANCE_STACK (DIM == 3 ? 50000 : 35000)
 #define WIDENED_STACK DISTANCE_STACK
 #define SAVED (V(workspace_size)(64) / 2)
 #define PENETRATION_STACK (DIM == 3 ? 90000 : 60000)

@@ -98,7 +98,7 @@ typedef struct gjk2f_result {
  * With options.tight, of sets whose corners are known (points, box, segment, origin, by the address of these
  * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
  * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
- * of 1280 bits and takes up to 34 KB of stack where the compiler optimises, in float 22, but of two boxes 34, too,
+ * of 1280 bits and takes up to 35 KB of stack where the compiler optimises, in float 22, but of two boxes 35, too,
  * unless it is built with GJK_ALONE. A pair that spans more keeps the usual bracket. A library built with GJK_NO_EXACT
  * does without. */
 GJK_API int gjk2f_distance(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
@@ -125,7 +125,7 @@ GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gj
  * status GJK_LIMIT. 64 corners do for everyday polygons and round shapes. Radii take no room. cutoff and tolerances are
  * as for distance; of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth
  * down to about the least that the coordinates can spell is right to the last place. It takes up to 60 KB of stack
- * where the compiler optimises, in float 35, its own room for corners included. */
+ * where the compiler optimises, in float 36, its own room for corners included. */
 GJK_API int gjk2f_penetration(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 7264 bytes of stack, in float 4160. Of smooth shapes, which float asks of its larger sister unless it is built with

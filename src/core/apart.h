@@ -46,8 +46,8 @@ static void stand_in_dip_of(search *q, const bulk *of, const bent *at, vertex p)
  * changed. */
 static APART enum end turn_to_dip(search *q, const shape *a, const shape *b, const goal *g)
 {
-    bulk of;
-    bent at;
+    bulk *const of = &q->first_dip->bulk;
+    bent *const at = &q->first_dip->at;
     vertex p = *spare(&q->s);
     raise(q, q->v, p.w);
     if (q->lower > g->beyond) {
@@ -56,16 +56,17 @@ static APART enum end turn_to_dip(search *q, const shape *a, const shape *b, con
         return BEYOND;
     }
     const real far = length(q->v);
-    if (g->max_steps < 2 || !(far > 0) || are_bodies_aligned(&q->d, a, b) || !know_bulk(&of, &q->d, a, b)) return OPEN;
-    if (!find_least(&of, mul(q->v, -1 / far), NULL, &at)) return OPEN;
-    const int deep = g->deep && !g->early && at.height > 64 * q->d.doubt;
-    if (!(at.height < 0) && !deep) return OPEN;
-    const vec way = mul(at.n, -1);
+    if (g->max_steps < 2 || !(far > 0) || !know_first_bulk(q->first_dip, &q->d, a, b)) return OPEN;
+    if (!find_least(of, mul(q->v, -1 / far), NULL, at)) return OPEN;
+    q->first_dip->found = 1;
+    const int deep = g->deep && !g->early && at->height > 64 * q->d.doubt;
+    if (!(at->height < 0) && !deep) return OPEN;
+    const vec way = mul(at->n, -1);
     if (!ask(&q->d, way, &p)) return FAULT;
     q->steps += 2;
     raise(q, way, p.w);
     if (deep) stand_alone(q, &p);
-    else stand_in_dip_of(q, &of, &at, p);
+    else stand_in_dip_of(q, of, at, p);
     return q->lower > g->beyond ? BEYOND : deep ? INSIDE : STILL;
 }
 

@@ -185,6 +185,7 @@ static enum end run(search *q, const shape *a, const shape *b, const options *o,
     for (;;) {
         end = FAULT;
         if (warm) warm = open_warm(q, a, b, o->slack, o->cache);
+        if (!opened) forget_first_dip(q->first_dip); /* the frame may be another */
         if (warm || opened || open_cold(q, a, b, o->slack)) {
             opened = 0;
             goal here = scaled(g, q->d.scale);
@@ -453,6 +454,9 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
                             result *r)
 {
     real upper, weight[DIM + 1];
+    first_dip own;
+    q->first_dip = &own;
+    forget_first_dip(&own);
     q->met = 0;
     enum end end = run(q, a, b, o, g, walked, &upper, weight), further = FAULT;
     int still = end == STILL || end == INSIDE;
@@ -467,7 +471,8 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
     bracket(r, &q->d, q->lower, upper, a, b);
     const int faint = g->sign_only && end == BEYOND && !(r->lower > 0); /* apart, by less than there are numbers for */
     if ((still || faint) && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
-    if (further != STILL && !is_plumbed(q, g, still)) answer(q, a, b, g, upper, weight, r);
+    if (further != STILL && !is_plumbed(q, g, still) && !(g->deep && may_meet(q, g, further)))
+        answer(q, a, b, g, upper, weight, r);
     if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
     else if (still && !g->exact) further = take_further(q, a, b, o, g, upper, weight, r);
     if (end == FAULT) return FAULT;

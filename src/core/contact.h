@@ -281,10 +281,32 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     search *q = d->q;
     if (!f || !(f->below >= q->lower - 4 * q->d.doubt)) return NULL;
     if (goes_with_bound(q, f)) return f;
-    if (q->steps >= d->g->max_steps || !find_least(&d->dips->bulk, q->normal, NULL, &b)) return NULL;
+    if (q->steps >= d->g->max_steps || !find_least(&d->dips->first->bulk, q->normal, NULL, &b)) return NULL;
     const int taken = take_dip(d, &b, other);
     if (taken < 0) *end = FAULT;
     return taken > 0 && goes_with_bound(q, other) ? other : NULL;
+}
+
+/* The dip near the one known best, or on the other side, that may be the least everywhere. 0: there is none. */
+static int find_dip_of_all(const depth *d, bent *b)
+{
+    const bulk *of = &d->dips->first->bulk;
+    if (find_first_dip(d, b) && room_of_ball(of, b) > 0) return 1;
+    return are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) && room_of_ball(of, b) > 0;
+}
+
+/* The depth by a dip alone, before there is a surface. 0: none tells it. -1: a support's answer was none. */
+static int fathom_by_dip(depth *d)
+{
+    bent b;
+    dips *all = d->dips;
+    dip *f = all ? &all->at[0] : NULL;
+    if (!all || d->q->steps >= d->g->max_steps || !find_dip_of_all(d, &b)) return 0;
+    const int taken = take_dip(d, &b, f);
+    if (taken <= 0 || !f->everywhere || !bounds_as_well(d->q, f)) return taken < 0 ? -1 : 0;
+    all->best = f;
+    all->n = 1;
+    return 1;
 }
 
 /* Normal and points go with a dip, if one is as low as any direction asked. 0: they don't, and all tips are corners
@@ -381,8 +403,8 @@ static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum 
     search *q = d->q;
     d->near = near_of(d, upper, *end);
     if (d->settled) q->normal = d->normal;
-    if (flat || !d->floor) return;
-    if (stand_in_dip(d, weight, end) || *end == FAULT) return;
+    if (flat) return;
+    if (stand_in_dip(d, weight, end) || *end == FAULT || !d->floor) return;
     if (*end == OPEN) turn_to_normal(d);
     if (d->settled || *end == OPEN) hand_over(d, weight);
     else point_out(d, weight);
@@ -418,12 +440,12 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.n = 0;
     own.best = NULL;
     own.tried = REAL_MAX;
-    if (!g->exact && !g->early && !are_bodies_aligned(&d->q->d, d->a, d->b) &&
-        know_bulk(&own.bulk, &d->q->d, d->a, d->b))
-        d->dips = &own;
+    own.first = d->q->first_dip;
+    if (!g->exact && !g->early && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) d->dips = &own;
     d->p.whole = &d->q->d;
-    enum end end = first_surface(d);
-    int flat = d->p.facets == 0;
+    const int told = fathom_by_dip(d);
+    enum end end = told < 0 ? FAULT : told ? CLOSE : first_surface(d);
+    int flat = !told && d->p.facets == 0;
     if (end == OPEN && !flat) end = grow_surface(d);
     if (end == FAULT) return end;
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);

@@ -19,7 +19,9 @@ typedef struct dip {
     int rimmed;             /*   there are some; */
     real bow_off, kink_off; /*   off by no more; */
     real slope, sway;       /*   at most */
-    real floor;             /* no way out that is near n, as far as `at` is of account, is shorter */
+    real floor;             /* no way out that is near n, as far as `at` is of account, is shorter; */
+    real far;               /*   that is as a tangent; */
+    int everywhere;         /*   no other is, either */
     int planted;            /* `at` is in the polytope, */
     int frayed;             /*   and facets around it have been dropped */
 } dip;
@@ -74,6 +76,7 @@ static int set_tip(dip *f)
     f->planted = f->frayed = 0;
     if (!(spare > 0)) return 0;
     while (far > NEAREST && !(bow_within(f, far) >= f->height + spare)) far *= (real)0.75;
+    f->far = far;
     f->floor = floor_near(f, far, f->height);
     f->at = mul(f->n, f->floor * root(1 + (real)0.9375 * far * far));
     return f->floor > 0;

@@ -96,6 +96,7 @@ typedef struct search {
 #if DIM == 3
     trail trail;
 #endif
+    struct first_dip *first_dip; /* where it is kept (round.h) */
     int turned; /* not walked, but turned to a dip of the heights that seems to be a way out; below 0: never again */
     int dug;    /* so many corners were looked at from there in vain (stride.h); -1: that is still to be tried */
     int stood;  /* the corner in the spare slot was sought in haste, and lies no lower along v */

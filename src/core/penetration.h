@@ -10,6 +10,7 @@
 
 #include "heights.h"
 #include "dip.h"
+#include "inball.h"
 #include "tight.h"
 
 /* What the proof needs to know of some facets. */
@@ -21,7 +22,7 @@ typedef struct tally {
 /* Where the heights of round sets are least nearby. */
 #define MOST_DIPS 4
 typedef struct dips {
-    bulk bulk; /* what heights are made of */
+    const first_dip *first; /* with what heights are made of */
     dip at[MOST_DIPS];
     dip *best; /* the lowest; NULL: none */
     int n;
@@ -519,6 +520,11 @@ static int bound(depth *d, real *upper)
 {
     tally all;
     real least = -1;
+    const dip *at = lowest_dip(d);
+    if (at && at->everywhere) {
+        *upper = smaller(*upper, -at->floor);
+        return 1;
+    }
     for (int i = 0; i <= count_dips(d) && least < 0; i++) least = count_surface(d, &all);
     int proven = all.facets > 0 && (d->settled || all.least > 0) && goes_around(d, all.least);
     if (proven && least > 0) *upper = smaller(*upper, -least);
@@ -712,15 +718,24 @@ static int look_lower(depth *d, const facet *f, int first)
 
 /* ---- dips of round sets ---- */
 
+/* The dip near the best direction so far. 0: there is none. */
+static int find_first_dip(const depth *d, bent *b)
+{
+    const first_dip *first = d->dips->first;
+    if (!first->found || !same(first->at.n, d->q->normal)) return find_least(&first->bulk, d->q->normal, NULL, b);
+    *b = first->at;
+    return 1;
+}
+
 /* The lowest dip near the best direction so far and the facets' normals. 0: there is none. */
 static int find_lowest_dip(const depth *d, int facets, bent *best)
 {
     bent b;
-    int found = find_least(&d->dips->bulk, d->q->normal, NULL, best);
+    const bulk *of = &d->dips->first->bulk;
+    int found = find_first_dip(d, best);
     for (int k = 0; k < facets; k++) {
-        if (found && height_of_bulk(&d->dips->bulk, d->p.facet[k].n) > best->height) continue;
-        if (!find_least(&d->dips->bulk, d->p.facet[k].n, found ? &best->n : NULL, &b) ||
-            (found && !(b.height < best->height)))
+        if (found && height_of_bulk(of, d->p.facet[k].n) > best->height) continue;
+        if (!find_least(of, d->p.facet[k].n, found ? &best->n : NULL, &b) || (found && !(b.height < best->height)))
             continue;
         *best = b;
         found = 1;
@@ -746,7 +761,7 @@ static int take_dip(depth *d, const bent *b, dip *f)
     const real h = dot(b->n, t.w);
     f->n = b->n;
     f->corner = (vertex){t.w, t.x, t.y};
-    share_out(&d->dips->bulk, b, &f->corner);
+    share_out(&d->dips->first->bulk, b, &f->corner);
     f->corner.w = corner_of(&q->d, f->corner.x, f->corner.y);
     f->height = h - 8 * UNIT * (size(h) + 2) - q->d.doubt - b->height_off;
     f->bow = b->bow;
@@ -758,7 +773,10 @@ static int take_dip(depth *d, const bent *b, dip *f)
     f->kink_off = b->kink_off;
     f->sway = b->sway;
     f->slope = length_across(b->slope) + b->slope_off;
-    if (f->height > CLEAR && set_tip(f)) return 1;
+    if (f->height > CLEAR && set_tip(f)) {
+        f->everywhere = is_least_of_all(b, room_of_ball(&d->dips->first->bulk, b), h - f->floor, f->far);
+        return 1;
+    }
     q->lower = lower; /* no facet may be near that n, for points to go with it */
     q->normal = normal;
     return 0;
@@ -859,6 +877,7 @@ static enum end deepen(depth *d)
     for (int full = 0;;) {
         if (!seek_dip(d)) return FAULT;
         if (d->p.facets == 0) return OPEN;
+        if (lowest_dip(d) && lowest_dip(d)->everywhere) return CLOSE;
         if (d->p.tips == d->p.most_tips) make_room(d);
         facet *f = lowest(&d->p);
         d->floor = f;

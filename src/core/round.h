@@ -190,6 +190,14 @@ static int are_bodies_aligned(const difference *d, const shape *a, const shape *
     return are_aligned(&k, edged_axes(a), &l, edged_axes(b));
 }
 
+/* Whether heights have no edges. */
+static inline int are_ellipsoids(const bulk *of)
+{
+    int r = 1;
+    for (int i = 0; i < of->limbs; i++) r &= of->limb[i].rows == DIM;
+    return r;
+}
+
 /* Whether it is known of the set, but for cones without a length or a disc. */
 static int has_heights(const shape *s)
 {
@@ -723,7 +731,7 @@ static int return_to_slant(rolling *s, bent *b)
     real t[ACROSS], off = 0;
     for (int r = 0; r < b->rows; r++)
         if (is_on_slant(b, b->of[r])) off = larger(size(b->off[r]), off);
-    if (!(off > 16 * UNIT)) return 0;
+    if (!(off > 2 * UNIT)) return 0;
     if (b->rows == ACROSS) {
         roll_to_corner(b, t);
     } else {
@@ -778,6 +786,22 @@ static int find_least(const bulk *of, vec n, const vec *known, bent *b)
     }
     return 0;
 }
+
+/* What is known of round bodies from the first dip of their heights on. */
+typedef struct first_dip {
+    bulk bulk;
+    bent at;
+    int known, found; /* the bulk; and the dip */
+} first_dip;
+
+/* What the heights of A - B are made of. 0: it is not known, or edges may lie on one another. */
+static int know_first_bulk(first_dip *f, const difference *d, const shape *a, const shape *b)
+{
+    if (!f->known) f->known = !are_bodies_aligned(d, a, b) && know_bulk(&f->bulk, d, a, b);
+    return f->known;
+}
+
+static inline void forget_first_dip(first_dip *f) { f->known = f->found = 0; }
 
 static inline void put_length(const limb *l, int k, real share, vertex *c)
 {
