@@ -1095,7 +1095,7 @@ static void as_well_as_hidden(void **state)
  * direction nearby, as a larger room finds it; of a few it is that of another. */
 static void all_but_concentric(void **state)
 {
-    long open = 0, limits = 0, near = 0, astray = 0;
+    long open = 0, steps = 0, limits = 0, near = 0, astray = 0;
     (void)state;
     for (at = 0; at < pairs_per_family; at++) {
         V(options) o = default_options();
@@ -1112,6 +1112,7 @@ static void all_but_concentric(void **state)
         find_truth_of_pair();
         ask_for_truth(NULL, &r);
         open += r.status == GJK_LIMIT;
+        steps += r.steps;
         const V(shape) a = hidden(&drawn.a.shape), b = hidden(&drawn.b.shape);
         V(penetration)(&a, &b, NULL, &r);
         expect_answer("the bracket misses the truth", &r, !(missed(&r) > 0));
@@ -1127,9 +1128,10 @@ static void all_but_concentric(void **state)
         near += off <= fmax(USUAL_GOAL, 512 * U) * span();
         astray += off > width_of(&r) / 4;
     }
-    printf("%-6s all but concentric: %ld limits; hidden %ld, %ld of them as a larger room has it, %ld astray\n",
-           VARIANT, open, limits, near, astray);
-    assert_true(open <= pairs_per_family / 20);
+    printf("%-6s all but concentric: %.1f steps, %ld limits; hidden %ld, %ld of them as a larger room has it, %ld "
+           "astray\n",
+           VARIANT, mean((double)steps, pairs_per_family), open, limits, near, astray);
+    assert_true(open <= pairs_per_family / 50 && steps <= 7 * pairs_per_family);
     assert_true(DIM == 2 || limits > pairs_per_family / 20);
     assert_true(is_share(near, limits, 0.9));
     assert_int_equal(astray, 0);
