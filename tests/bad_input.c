@@ -515,6 +515,37 @@ static void points_beyond_their_reach(void **state)
     expect(GJK_BAD_ARGUMENT);
 }
 
+/* Nor is a formula of one or two that lie beyond it an answer. */
+static void ends_beyond_their_reach(void **state)
+{
+    static real v[2][DIM];
+    V(points) points = {.v = v[0]};
+    V(box) box = {.half = {1, 1}};
+    V(segment) segment = {.v = {{-1}, {1}}};
+    V(result) r;
+    (void)state;
+    box.half[DIM - 1] = 1;
+    v[0][0] = v[1][1] = 1;
+    for (int k = 0; k < 8; k++) {
+        fresh(NULL);
+        points.count = (size_t)(1 + k % 2);
+        a.shape.support = V(support_points);
+        a.shape.data = &points;
+        b.shape.support = points.count == 1 && k & 4 ? V(support_box) : V(support_segment);
+        b.shape.data = points.count == 1 && k & 4 ? (const void *)&box : &segment;
+        b.pose.p[DIM - 1] = k & 2 ? 3 : (real)0.5;
+        b.shape.pose = &b.pose;
+        a.shape.radius = b.shape.radius = (real)0.125;
+        points.reach = (real)0.5;
+        expect_query(V(distance), &a.shape, &b.shape, NULL, GJK_BAD_SUPPORT);
+        expect_query(V(penetration), &b.shape, &a.shape, NULL, GJK_BAD_SUPPORT);
+        points.reach = V(points_reach)(&points);
+        assert_int_equal(V(distance)(&a.shape, &b.shape, NULL, &r), GJK_OK);
+        points.reach = 0;
+        assert_int_equal(V(penetration)(&b.shape, &a.shape, NULL, &r), GJK_OK);
+    }
+}
+
 /* What a support leaves in its point must be its own: whatever lay there before is no answer. */
 static void callback_writes_nothing(void **state)
 {
@@ -1024,6 +1055,7 @@ int main(void)
         cmocka_unit_test_setup(singular_poses, fresh),
         cmocka_unit_test_setup(callbacks_not_finite, fresh),
         cmocka_unit_test_setup(points_beyond_their_reach, fresh),
+        cmocka_unit_test_setup(ends_beyond_their_reach, fresh),
         cmocka_unit_test_setup(callback_writes_nothing, fresh),
         cmocka_unit_test_setup(callback_reaches, fresh),
         cmocka_unit_test_setup(calls_are_counted, fresh),

@@ -678,7 +678,8 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
         q->d.slack = 0;
         return 0;
     }
-    if (q->thin == UNTRIED && q->listed && are_thin(&q->d)) q->thin = tell_thin(&q->d, a, b, g, r);
+    if (q->thin == UNTRIED && q->listed && are_thin(&q->d))
+        q->thin = are_ends_within(&q->d.a) && are_ends_within(&q->d.b) ? tell_thin(&q->d, a, b, g, r) : IN_VAIN;
     q->told = q->thin == TELLING;
     tell_polygons(q, a, b, o, g, r);
     *end = q->told ? STILL : q->listed ? answer_plainly(q, a, b, o, g, r) : FAULT;

@@ -41,6 +41,14 @@ static inline vec first_end(const body *k) { return load(k->list.v); }
 
 static inline vec last_end(const body *k) { return nth_of(&k->list, k->list.count - 1); }
 
+/* A cloud's points are numbers, and within the reach that it says; of what else is thin nobody says any. */
+static inline int are_ends_within(body *k)
+{
+    if (k->asked == AS_BOX || k->list.reach == 0) return 1;
+    know_reach(k, k->list.reach);
+    return fits(k, first_end(k)) && fits(k, last_end(k));
+}
+
 /* The square of the set's reach, times that grain and by, one after the other. */
 static inline real square_of_thin(const body *k, real grain, real by)
 {
