@@ -525,10 +525,11 @@ static void ends_beyond_their_reach(void **state)
     V(result) r;
     (void)state;
     box.half[DIM - 1] = 1;
-    v[0][0] = v[1][1] = 1;
+    v[1][DIM - 1] = 1;
     for (int k = 0; k < 8; k++) {
         fresh(NULL);
         points.count = (size_t)(1 + k % 2);
+        v[0][0] = points.count == 1 ? 1 : (real)0.25;
         a.shape.support = V(support_points);
         a.shape.data = &points;
         b.shape.support = points.count == 1 && k & 4 ? V(support_box) : V(support_segment);
