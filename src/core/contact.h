@@ -287,6 +287,9 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     return taken > 0 && goes_with_bound(q, other) ? other : NULL;
 }
 
+/* The bracket is as narrow as rounding allows, whatever the radii. */
+static int is_tight(const search *q, real upper) { return upper - q->lower <= 4 * q->d.doubt + 2 * q->d.slack; }
+
 /* The dip near the one known best, or on the other side, that may be the least everywhere. 0: there is none. */
 static int find_dip_of_all(const depth *d, bent *b)
 {
@@ -302,11 +305,19 @@ static int fathom_by_dip(depth *d)
     dips *all = d->dips;
     dip *f = all ? &all->at[0] : NULL;
     if (!all || d->q->steps >= d->g->max_steps || !find_dip_of_all(d, &b)) return 0;
+    search *q = d->q;
+    const real lower = q->lower;
+    const vec normal = q->normal;
     const int taken = take_dip(d, &b, f);
-    if (taken <= 0 || !f->everywhere || !bounds_as_well(d->q, f)) return taken < 0 ? -1 : 0;
-    all->best = f;
-    all->n = 1;
-    return 1;
+    if (taken < 0) return -1;
+    if (taken && f->everywhere && bounds_as_well(q, f) && is_tight(q, -f->floor)) {
+        all->best = f;
+        all->n = 1;
+        return 1;
+    }
+    q->lower = lower; /* to begin where the search has come to */
+    q->normal = normal;
+    return 0;
 }
 
 /* Normal and points go with a dip, if one is as low as any direction asked. 0: they don't, and all tips are corners

@@ -75,7 +75,7 @@ static real room_of_ball(const bulk *of, const bent *b)
     const real off = -dot(e.middle, b->n), low = b->height * e.along;
     real t[ACROSS];
     for (int j = 0; j < ACROSS; j++) t[j] = dot(e.middle, b->e[j]);
-    const real aside = length_across(t), lean = aside / off;
+    const real far = length_across(t), aside = far > UNIT ? far : 0, lean = aside / off; /* less is not known */
     if (!(off > 0)) return 0;
     const real high = low + b->height * aside * lean; /* asked along t, low across */
     vec u[ACROSS];
