@@ -1161,25 +1161,6 @@ static void aside_by_next_to_nothing(void **state)
     }
 }
 
-/* A disc and a ball that all but share their middles: an ellipsoid within would tell how deep, with a bracket that is
- * wider than facets leave it. */
-static void told_no_wider_than_by_facets(void **state)
-{
-    V(result) r;
-    (void)state;
-    start_pair(DISC, ELLIPSOID);
-    drawn.a.radius = drawn.b.half[0] = drawn.b.half[1] = drawn.b.half[2] = 1;
-    drawn.a.shape.radius = (real)0.1;
-    drawn.b.shape.radius = (real)0x1.4be755a3b7c21p-1;
-    drawn.b.pose.p[0] = (real)0x1.ecbcc342c4ae6p-33;
-    drawn.b.pose.p[1] = (real)0x1.efe81654558b3p-33;
-    drawn.b.pose.p[2] = (real)0x1.2dc1627149f1ep-35;
-    bind_pair(&drawn);
-    drawn.a.shape.pose = NULL;
-    ask(NULL, &r);
-    assert_true(VARIANT_FLOAT || r.status == GJK_OK);
-}
-
 /* The tip of a cone in another, next to its axis: the ways out all around are about as short, and along each of them
  * heights have a crease, where the tip's ways and those of the round side meet. As a larger room has it, as a rule. */
 static void tips_next_to_axes(void **state)
@@ -2043,7 +2024,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(all_but_concentric),
 #if DIM == 3
         cmocka_unit_test(aside_by_next_to_nothing),
-        cmocka_unit_test(told_no_wider_than_by_facets),
         cmocka_unit_test(tips_next_to_axes),
         cmocka_unit_test(cones_in_each_other),
         cmocka_unit_test(cones_in_flat_ones),
