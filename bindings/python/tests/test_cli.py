@@ -114,7 +114,8 @@ def test_depth_has_a_sign():
 
 def test_more_corners_for_round_shapes():
     cone = {"shape": "cone", "r": 2, "half_length": 1}
-    deep = {**CASE, "query": "penetration", "a": cone, "b": {**cone, "pose": [1, 0, 0, 0.5, 0, 0, -1, 0.1, 0, 1, 0, 0.2]}}
+    aside = {**cone, "pose": [1, 0, 0, 0.5, 0, 0, -1, 0.1, 0, 1, 0, 0.2]}
+    deep = {**CASE, "query": "penetration", "a": cone, "b": aside}
     few, many = ask(*({**deep, "options": {"corners": n, "max_steps": 1000}} for n in (8, 1000)))[0]
     assert few["status"] == "limit"
     assert many["status"] != "limit"
