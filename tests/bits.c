@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x5193caa18a1ef69f, 0x71088c4ef6299659, 0x2ba917a4b7785d25};
+static const uint64_t known[3] = {0x5193caa18a1ef69f, 0x16ccd669bc786c3c, 0x56088e587a03f80e};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xe548584337451a0c, 0xe4d50d24f2453ef4};
+static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xa957820c31ad58c5, 0x0fe26d69b91f6f5c};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x6bf3e15c6ffe9977, 0x27f5406e2be30179, 0x7707968b1491392a};
+static const uint64_t known[3] = {0x6bf3e15c6ffe9977, 0x27f5406e2be30179, 0x1ed912eb516f877a};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0x422afc2e674cbf2c};
+static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0x6dff5413985332b4};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

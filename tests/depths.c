@@ -1030,6 +1030,50 @@ static void round_shapes_roughly(void **state)
     }
 }
 
+/* Round bodies: a looser tolerance, or any at all, never takes more steps, and what it gives up is no more than asked.
+ */
+static void looser_takes_no_more_steps(void **state)
+{
+    static const double asked[] = {0, 1e-14, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 1e-1};
+    long deep = 0, saved = 0;
+    (void)state;
+    for (at = 0; at < 4 * pairs_per_family; at++) {
+        V(options) o = default_options();
+        V(result) r, last;
+        draws d = draws_from(seed, 2006, (uint64_t)at);
+        draw_any(&d, &drawn.a, round_kinds[below(&d, ROUND_KINDS)]);
+        draw_any(&d, &drawn.b, at % 4 ? round_kinds[below(&d, ROUND_KINDS)] : ELLIPSOID);
+        put_off(&d, at % 8 == 7 ? 1e-6 : between(&d, 0, 0.5));
+        bind_pair(&drawn);
+        p = &drawn;
+        for (size_t k = 0; k < sizeof asked / sizeof *asked; k++) {
+            o.rel_tol = (real)asked[k];
+            ask(&o, &r);
+            if (!(r.upper < 0)) {
+                break;
+            }
+            const double width = width_of(&r);
+            for (int i = 0; i < DIM && r.status == GJK_OK; i++) {
+                const double off = (double)r.point_a[i] - (double)r.point_b[i] + (double)r.value * (double)r.normal[i];
+                expect_answer("the points are not depth * normal apart", &r,
+                              fabs(off) <= 64 * U * span() + 8 * sqrt(width * span()));
+            }
+            if (k > 0) {
+                expect_answer("a looser tolerance took more steps", &r, r.steps <= last.steps);
+                expect_answer("two brackets, and no number in both", &r,
+                              r.lower <= last.upper && last.lower <= r.upper);
+                expect_answer("wider than asked", &r,
+                              r.status != GJK_OK || width <= asked[k] * fabs((double)r.lower) * (1 + 8 * U) + LEAST);
+                saved += r.steps < last.steps;
+            }
+            deep += k == 0;
+            last = r;
+        }
+    }
+    printf("%-6s looser: %ld overlap, %ld times fewer steps\n", VARIANT, deep, saved);
+    assert_true(deep > pairs_per_family && saved > (VARIANT_FLOAT ? 0 : deep / 4));
+}
+
 /* Round bodies with several ways out that are as short but for some last places: the normal is that of the best bound.
  */
 static void as_deep_several_ways(void **state)
@@ -1135,6 +1179,38 @@ static void all_but_concentric(void **state)
     assert_true(DIM == 2 || limits >= pairs_per_family / 20);
     assert_true(is_share(near, limits, 0.9));
     assert_int_equal(astray, 0);
+}
+
+/* Ellipsoids that share their middles to what is left of a small number, where many ways out are as short, or of balls
+ * all: nothing is left open, and a ten thousandth is known at once. */
+static void sharing_middles(void **state)
+{
+    long told = 0;
+    double widest = 0;
+    (void)state;
+    for (at = 0; at < 2 * pairs_per_family; at++) {
+        V(options) o = default_options();
+        V(result) r;
+        draws d = draws_from(seed, 2007, (uint64_t)at);
+        const double off = at % 3 ? magnitude(&d, -20, -7) : 0;
+        draw_any(&d, &drawn.a, at % 4 ? BALL : ELLIPSOID);
+        draw_any(&d, &drawn.b, at % 4 == 1 ? BALL : ELLIPSOID);
+        for (int i = 0; i < DIM; i++) {
+            drawn.a.pose.p[i] = (real)(at % 2 ? 0 : between(&d, -1, 1));
+            drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)(off * between(&d, -1, 1));
+        }
+        bind_pair(&drawn);
+        p = &drawn;
+        find_truth_of_pair();
+        ask_for_truth(NULL, &r);
+        expect_answer("balls are left open", &r, at % 4 != 1 || width_of(&r) <= (1e-8 + 16 * U) * span());
+        widest = at % 4 == 1 ? fmax(width_of(&r) / (U * span()), widest) : widest;
+        o.rel_tol = (real)1e-4;
+        ask_for_truth(&o, &r);
+        told += r.status == GJK_OK && r.steps <= 4;
+    }
+    printf("%-6s sharing middles: %ld told at once, balls' widest bracket %.0f u\n", VARIANT, told, widest);
+    assert_true(is_share(told, 2 * pairs_per_family, 0.75));
 }
 
 #if DIM == 3
@@ -2019,9 +2095,11 @@ int main(int argc, char **argv)
         cmocka_unit_test(stacked),
         cmocka_unit_test(round_shapes),
         cmocka_unit_test(round_shapes_roughly),
+        cmocka_unit_test(looser_takes_no_more_steps),
         cmocka_unit_test(as_deep_several_ways),
         cmocka_unit_test(as_well_as_hidden),
         cmocka_unit_test(all_but_concentric),
+        cmocka_unit_test(sharing_middles),
 #if DIM == 3
         cmocka_unit_test(aside_by_next_to_nothing),
         cmocka_unit_test(tips_next_to_axes),

@@ -59,7 +59,7 @@ static APART enum end turn_to_dip(search *q, const shape *a, const shape *b, con
     if (g->max_steps < 2 || !(far > 0) || !know_first_bulk(q->first_dip, &q->d, a, b)) return OPEN;
     if (!find_least(of, mul(q->v, -1 / far), NULL, at)) return OPEN;
     q->first_dip->found = 1;
-    const int deep = g->deep && !g->early && at->height > 64 * q->d.doubt;
+    const int deep = g->deep && at->height > 64 * q->d.doubt;
     if (!(at->height < 0) && !deep) return OPEN;
     const vec way = mul(at->n, -1);
     if (!ask(&q->d, way, &p)) return FAULT;

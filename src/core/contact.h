@@ -294,12 +294,23 @@ static int is_tight(const search *q, real upper) { return upper - q->lower <= 4 
 static int find_dip_of_all(const depth *d, bent *b)
 {
     const bulk *of = &d->dips->first->bulk;
-    if (find_first_dip(d, b) && room_of_ball(of, b) > 0) return 1;
-    return are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) && room_of_ball(of, b) > 0;
+    bent *first = first_dip_of(d);
+    if (first && room_for_ball(of, first) > 0) {
+        *b = *first;
+        return 1;
+    }
+    return are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) &&
+           (room_for_ball(of, b) > 0 || is_centred(of, b->height));
+}
+
+/* What the dip proves of all ways is as narrow as facets would get, or as asked. */
+static int is_enough(const depth *d, const dip *f)
+{
+    return f->far == 0 || is_tight(d->q, -f->floor) || is_as_asked(d, d->q->lower, -f->floor);
 }
 
 /* The depth by a dip alone, before there is a surface. 0: none tells it. -1: a support's answer was none. */
-static int fathom_by_dip(depth *d)
+static int fathom_by_dip(depth *d, real *upper)
 {
     bent b;
     dips *all = d->dips;
@@ -310,7 +321,12 @@ static int fathom_by_dip(depth *d)
     const vec normal = q->normal;
     const int taken = take_dip(d, &b, f);
     if (taken < 0) return -1;
-    if (taken && f->everywhere && bounds_as_well(q, f) && is_tight(q, -f->floor)) {
+    if (taken && !f->everywhere) {
+        *upper = smaller(*upper, -f->held);
+        f->everywhere = is_as_asked(d, q->lower, -f->held);
+        if (f->everywhere) f->floor = f->held;
+    }
+    if (taken && f->everywhere && bounds_as_well(q, f) && is_enough(d, f)) {
         all->best = f;
         all->n = 1;
         return 1;
@@ -380,7 +396,7 @@ static int is_open(depth *d, int proven, real upper)
 }
 
 /* What both bounds of a facet are charged for roundings at most, but for the doubt and the slack, in a frame where
- * heights are up to 2: 8 (2 + 2) by floor_of, and 5 (2 + 2 sqrt(3)) by raise. */
+ * heights are up to 2: 4 (2 + 2) by floor_of, 8 times 2 more by a dip, and 5 (2 + 2 sqrt(3)) by raise. */
 #define CHARGED (64 * UNIT)
 
 /* The bracket is as narrow as one that is closed. */
@@ -435,7 +451,9 @@ static enum end grow_surface(depth *d)
 static int prove_grown(depth *d, real *upper, enum end *end)
 {
     const int proven = prove(d, upper);
-    if (!lowest_dip(d) || is_bounded(d->q, *upper) || d->q->steps >= d->g->max_steps) return proven;
+    const dip *at = lowest_dip(d);
+    if (!at || at->far == 0 || is_bounded(d->q, *upper) || is_as_asked(d, d->q->lower, *upper)) return proven;
+    if (d->q->steps >= d->g->max_steps) return proven;
     d->closings = 0;
     *end = do_without_dips(d) ? grow_surface(d) : FAULT;
     return *end != FAULT && prove(d, upper);
@@ -452,9 +470,9 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.best = NULL;
     own.tried = REAL_MAX;
     own.first = d->q->first_dip;
-    if (!g->exact && !g->early && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) d->dips = &own;
+    if (!g->exact && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) d->dips = &own;
     d->p.whole = &d->q->d;
-    const int told = fathom_by_dip(d);
+    const int told = fathom_by_dip(d, upper);
     enum end end = told < 0 ? FAULT : told ? CLOSE : first_surface(d);
     int flat = !told && d->p.facets == 0;
     if (end == OPEN && !flat) end = grow_surface(d);

@@ -20,8 +20,9 @@ typedef struct dip {
     real bow_off, kink_off; /*   off by no more; */
     real slope, sway;       /*   at most */
     real floor;             /* no way out that is near n, as far as `at` is of account, is shorter; */
-    real far;               /*   that is as a tangent; */
-    int everywhere;         /*   no other is, either */
+    real far;               /*   that is as a tangent; 0: only that of all ways is proven; */
+    real held;              /* no way out at all is shorter: as ellipsoids have it */
+    int everywhere;         /*   nor than the floor */
     int planted;            /* `at` is in the polytope, */
     int frayed;             /*   and facets around it have been dropped */
 } dip;
@@ -73,7 +74,6 @@ static int set_tip(dip *f)
 {
     const real spare = smaller(f->height, bow_within(f, NEAREST) - f->height) / 4;
     real far = 1;
-    f->planted = f->frayed = 0;
     if (!(spare > 0)) return 0;
     while (far > NEAREST && !(bow_within(f, far) >= f->height + spare)) far *= (real)0.75;
     f->far = far;

@@ -66,6 +66,15 @@ static void add_limb_across(const limb *l, const bent *b, int on_edge, real time
     add_root(sum, x);
 }
 
+/* By how much the ellipsoid is wider across n than 1 at least, in these directions across, to the first order. */
+static real spare_across(const bulk *of, const bent *b, const ovoid *e, const vec u[ACROSS])
+{
+    quadric sum = {{{0}}};
+    for (int i = 0; i < of->limbs; i++)
+        add_limb_across(&of->limb[i], b, is_on_edge(b, i) && !is_on_slant(b, i), e->times[i], u, &sum);
+    return least_value(&sum) - 1;
+}
+
 /* The least value, on unit vectors, of the form in n and what is across that is to be above 0, or less; 0: it is not
  * above 0. */
 static real room_of_ball(const bulk *of, const bent *b)
@@ -87,21 +96,56 @@ static real room_of_ball(const bulk *of, const bent *b)
     u[0] = b->e[0];
 #endif
     u[0] = mul(u[0], 1 / root(high));
-    quadric sum = {{{0}}};
-    for (int i = 0; i < of->limbs; i++)
-        add_limb_across(&of->limb[i], b, is_on_edge(b, i) && !is_on_slant(b, i), e.times[i], u, &sum);
-    const real spare = least_value(&sum) - 1;
+    const real spare = spare_across(of, b, &e, u);
     if (!(spare > 0)) return 0;
     const real room = smaller(b->height * off / 2, 2 * spare * low / (1 + 2 * lean * lean));
     return room / ((1 + lean) * (1 + lean));
 }
 
+/* The same, told once. */
+static real room_for_ball(const bulk *of, bent *b)
+{
+    if (b->room < 0) b->room = room_of_ball(of, b);
+    return b->room;
+}
+
+/* What rounding and the slope do to the form and to the ellipsoid. */
+static inline real slope_of(const bent *b) { return length_across(b->slope) + b->slope_off; }
+static inline real off_of_room(const bent *b) { return 2048 * UNIT + 128 * slope_of(b); }
+
 /* A - B is as high as the dip's floor along all ways, if it is along those within the tangent far of n, up to 1; over:
  * so high above that floor is the corner there. */
 static inline int is_least_of_all(const bent *b, real room, real over, real far)
 {
-    const real slope = length_across(b->slope) + b->slope_off;
-    return room * (far * far) / 2 >= 2048 * UNIT + 128 * slope + 64 * over;
+    return room * (far * far) / 2 >= off_of_room(b) + 64 * over;
+}
+
+/* Whether ellipsoids all but share their middles. */
+#define ALL_BUT ((real)0x1p-20)
+static inline int is_centred(const bulk *of, real height)
+{
+    return are_ellipsoids(of) && length(of->middle) <= ALL_BUT * height;
+}
+
+/* Whether there are ways beside n along which A - B is about as high, as of balls that share their middles: corners
+ * prove these but slowly, and what the ellipsoid proves is taken if it is no more than so much off. */
+#define ALONE_OFF ((real)0x1p-25 + (real)0x1p16 * UNIT)
+static inline int is_level_around(const bent *b) { return least_value(&b->bow) <= b->height * (1 + (real)0x1p-8); }
+
+/* How high A - B is along all ways by the ellipsoid alone, of ellipsoids, if it is as high as r along n, and over as
+ * above: some roundings less. -REAL_MAX: that is not told. */
+static real height_of_all(const bulk *of, const bent *b, real room, real r, real over)
+{
+    const real apart = length(of->middle), steep = 2 * slope_of(b) + 8 * over;
+    if (room > 2 * off_of_room(b) && are_ellipsoids(of) && apart <= r / 4)
+        return r - (32 * over + 4 * steep * (steep / room)) / r;
+    if (!is_centred(of, r)) return -REAL_MAX;
+    ovoid e = {.middle = axis(0, 0)};
+    for (int i = 0; i < of->limbs; i++) give_limb(of, b, i, &e);
+    vec u[ACROSS];
+    for (int j = 0; j < ACROSS; j++) u[j] = mul(b->e[j], 1 / root(b->height * e.along));
+    const real spare = smaller(spare_across(of, b, &e, u), 0);
+    return spare >= -ALL_BUT ? b->height * (1 + spare) - 4 * apart - 512 * UNIT - 8 * slope_of(b) : -REAL_MAX;
 }
 
 #endif

@@ -22,7 +22,7 @@ typedef struct tally {
 /* Where the heights of round sets are least nearby. */
 #define MOST_DIPS 4
 typedef struct dips {
-    const first_dip *first; /* with what heights are made of */
+    first_dip *first; /* with what heights are made of */
     dip at[MOST_DIPS];
     dip *best; /* the lowest; NULL: none */
     int n;
@@ -356,7 +356,7 @@ static inline real below_height(twin h) { return h.high - 2 * UNIT * size(h.high
 /* A lower bound of the heights of the facet's points along its n, in the frame, without the corners' own rounding. */
 static real floor_of(const depth *d, const facet *f)
 {
-    if (!d->g->exact) return f->height - 8 * UNIT * (size(f->height) + 2) - d->q->d.doubt;
+    if (!d->g->exact) return f->height - 4 * UNIT * (size(f->height) + 2) - d->q->d.doubt;
     return below_height(same(f->n, d->sight.n) ? floor_seen(d, f) : fine_floor(&d->p, f, f->n));
 }
 
@@ -544,17 +544,31 @@ static int close_in(depth *d, const facet *f)
     return d->least - f->height <= 2 * UNIT + d->q->d.slack || d->closings++ == CLOSINGS;
 }
 
+/* With the bound from below the bracket is as narrow as asked. */
+static inline int is_as_asked(const depth *d, real lower, real upper)
+{
+    const goal *g = d->g;
+    return upper - lower <= g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
+}
+
+/* The same of the bracket that the lowest facet proves, which no dip's tip is to be of account to. */
+static int is_narrow(const depth *d, const facet *f, real lower)
+{
+    const real doubt = d->q->d.doubt;
+    /* a facet that rounding may take below the origin bounds nothing from above */
+    if (!(f->height > (d->g->exact ? 0 : doubt) + 64 * UNIT) || !is_as_asked(d, lower, doubt - f->height)) return 0;
+    for (int i = 0; i < count_dips(d); i++)
+        if (d->dips->at[i].planted && !is_sound(&d->dips->at[i], f->height - 64 * UNIT - 2 * doubt)) return 0;
+    return 1;
+}
+
 /* With what the facet's own direction proves, lower, the bracket is as narrow as asked, or as rounding allows where the
  * corners are not known without it. */
 static int close_enough(depth *d, const facet *f, real lower)
 {
-    const goal *g = d->g;
-    real doubt = d->q->d.doubt, upper = -f->height + doubt;
-    if (!g->exact && upper - lower <= 3 * doubt + d->q->d.slack && close_in(d, f)) return 1;
-    if (!(g->abs_tol > 0) && !(g->rel_tol > 0)) return 0;
-    real asked = g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
-    /* a facet that rounding may take below the origin bounds nothing from above */
-    return f->height > (g->exact ? 0 : doubt) + 64 * UNIT && upper - lower <= asked;
+    const real doubt = d->q->d.doubt;
+    if (!d->g->exact && doubt - f->height - lower <= 3 * doubt + d->q->d.slack && close_in(d, f)) return 1;
+    return is_narrow(d, f, lower);
 }
 
 /* Whether anything lies beyond the facet along its n: t, the corner there by rounded heights or, of known corners, by
@@ -596,12 +610,12 @@ static int is_bounded_by(depth *d, const facet *f, const tip *t)
         d->along = f->n;
         d->below = q->lower;
     }
-    if (close_enough(d, f, q->lower)) return 1;
-    if (q->lower < best) {
+    const int close = close_enough(d, f, q->lower);
+    if (q->lower < best && (!close || lowest_dip(d))) { /* a facet's own normal and bound end it together, or a dip's */
         q->lower = best;
         q->normal = normal;
     }
-    return 0;
+    return close;
 }
 
 /* The bound from below that has been kept. */
@@ -718,13 +732,13 @@ static int look_lower(depth *d, const facet *f, int first)
 
 /* ---- dips of round sets ---- */
 
-/* The dip near the best direction so far. 0: there is none. */
-static int find_first_dip(const depth *d, bent *b)
+/* The dip near the best direction so far. NULL: there is none. */
+static bent *first_dip_of(const depth *d)
 {
-    const first_dip *first = d->dips->first;
-    if (!first->found || !same(first->at.n, d->q->normal)) return find_least(&first->bulk, d->q->normal, NULL, b);
-    *b = first->at;
-    return 1;
+    first_dip *first = d->dips->first;
+    if (!first->found || !same(first->at.n, d->q->normal))
+        first->found = find_least(&first->bulk, d->q->normal, NULL, &first->at);
+    return first->found ? &first->at : NULL;
 }
 
 /* The lowest dip near the best direction so far and the facets' normals. 0: there is none. */
@@ -732,7 +746,9 @@ static int find_lowest_dip(const depth *d, int facets, bent *best)
 {
     bent b;
     const bulk *of = &d->dips->first->bulk;
-    int found = find_first_dip(d, best);
+    const bent *first = first_dip_of(d);
+    int found = first != NULL;
+    if (first) *best = *first;
     for (int k = 0; k < facets; k++) {
         if (found && height_of_bulk(of, d->p.facet[k].n) > best->height) continue;
         if (!find_least(of, d->p.facet[k].n, found ? &best->n : NULL, &b) || (found && !(b.height < best->height)))
@@ -743,9 +759,28 @@ static int find_lowest_dip(const depth *d, int facets, bent *best)
     return found;
 }
 
+/* What curvature and ellipsoids prove of the ways near the dip, whose corner is h high, and of all. 0: nothing. */
+static int set_floor(dip *f, const bulk *of, bent *b, real h)
+{
+    const real room = room_for_ball(of, b);
+    f->planted = f->frayed = 0;
+    f->everywhere = 0;
+    f->held = -REAL_MAX;
+    if (!(f->height > CLEAR)) return 0;
+    f->held = height_of_all(of, b, room, f->height, h - f->height);
+    if (set_tip(f)) {
+        f->everywhere = is_least_of_all(b, room, h - f->floor, f->far);
+        return 1;
+    }
+    f->far = 0;
+    f->floor = f->held;
+    f->everywhere = f->floor > CLEAR && h - f->floor <= ALONE_OFF && is_level_around(b);
+    return f->everywhere;
+}
+
 /* Takes in what is known of A - B along b's n, where the height has a dip. -1: a support's answer was none. 0: nothing
  * is proven by it. */
-static int take_dip(depth *d, const bent *b, dip *f)
+static int take_dip(depth *d, bent *b, dip *f)
 {
     search *q = d->q;
     const real lower = q->lower;
@@ -763,7 +798,7 @@ static int take_dip(depth *d, const bent *b, dip *f)
     f->corner = (vertex){t.w, t.x, t.y};
     share_out(&d->dips->first->bulk, b, &f->corner);
     f->corner.w = corner_of(&q->d, f->corner.x, f->corner.y);
-    f->height = h - 8 * UNIT * (size(h) + 2) - q->d.doubt - b->height_off;
+    f->height = h - 4 * UNIT * (size(h) + 2) - q->d.doubt - b->height_off;
     f->bow = b->bow;
     f->kink = b->kink;
     f->part = b->part;
@@ -773,10 +808,7 @@ static int take_dip(depth *d, const bent *b, dip *f)
     f->kink_off = b->kink_off;
     f->sway = b->sway;
     f->slope = length_across(b->slope) + b->slope_off;
-    if (f->height > CLEAR && set_tip(f)) {
-        f->everywhere = is_least_of_all(b, room_of_ball(&d->dips->first->bulk, b), h - f->floor, f->far);
-        return 1;
-    }
+    if (set_floor(f, &d->dips->first->bulk, b, h)) return 1;
     q->lower = lower; /* no facet may be near that n, for points to go with it */
     q->normal = normal;
     return 0;
@@ -836,6 +868,12 @@ static int is_proven(const depth *d, const facet *f)
     return at && !d->narrowed && floor_of(d, f) >= at->floor - d->q->d.doubt / 2;
 }
 
+/* The same as narrowly as asked. */
+static int is_proven_as_asked(const depth *d, const facet *f)
+{
+    return lowest_dip(d) && !d->narrowed && is_narrow(d, f, d->q->lower);
+}
+
 /* The way out of a proven facet is asked, too, where it is another than the dip's: of two that are as short to rounding
  * either may have the tighter bracket. 0: a support's answer was none. */
 static int ask_floor_beside_dip(depth *d, const facet *f)
@@ -882,6 +920,7 @@ static enum end deepen(depth *d)
         facet *f = lowest(&d->p);
         d->floor = f;
         if (f->done) return d->narrowed ? OPEN : STILL; /* a new facet by a wall may be lower, and no noise */
+        if (is_proven_as_asked(d, f)) return CLOSE;
         if (is_proven(d, f)) {
             if (!ask_floor_beside_dip(d, f)) return FAULT;
             if (goes_around(d, d->dips->best->floor)) return CLOSE;

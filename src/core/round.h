@@ -238,6 +238,7 @@ typedef struct bent {
     real off[ACROSS];       /*   and how far n is from there; */
     real share[ACROSS];     /*   what the rows count for */
     real sign[MOST_LIMBS];  /* as which straight limbs and cones' count, on slants by their shares as last known */
+    real room;              /* see room_of_ball; below 0: it is not told yet */
 } bent;
 
 static inline int is_on_edge(const bent *b, int i) { return (int)(b->edges >> i & 1); }
@@ -419,10 +420,20 @@ static inline real length_across(const real t[ACROSS])
 #define ROLLS 24
 #define ROLL ((real)0.5)
 
+static inline int is_all_but_level(real slope, real height) { return size(slope) < (real)0x1p-10 * height; }
+
+/* Where heights are all but level, and bowed less than over n's length they fall (a ridge, or a saddle), n does not
+ * rest. */
+static inline int is_poised(real slope, real bow, real height)
+{
+    return bow < height - 4096 * UNIT * height && is_all_but_level(slope, height);
+}
+
 /* One way across: down, to where there would be no slope if it is bowed. */
 static inline real roll_along(real slope, real bow, real height, real most)
 {
     real k = bow > height ? bow - height : bow;
+    if (is_poised(slope, bow, height)) return slope > 0 ? -most : most;
     return size(slope) < most * k ? -slope / k : slope > 0 ? -most : most;
 }
 
@@ -449,9 +460,22 @@ static inline int turn_by(const bent *b, const real slope[2], real more, real t[
 static real more_bow(const bent *b, const real slope[2], real most)
 {
     real t[2];
-    if (least_value(&b->bow) > b->height && turn_by(b, slope, -b->height, t) && length_across(t) <= most)
-        return -b->height;
-    return larger(-b->height, 0) + length_across(slope) / most;
+    const real least = least_value(&b->bow), steep = length_across(slope);
+    if (least > b->height && turn_by(b, slope, -b->height, t) && length_across(t) <= most) return -b->height;
+    if (least > b->height && is_all_but_level(steep, b->height)) return steep / most - b->height;
+    return larger(-b->height, 0) + steep / most;
+}
+
+/* Off edges, where n is poised: down along the way across that is bowed least. 0: it is not. */
+static int fall(const bent *b, real most, real t[2])
+{
+    const real least = least_value(&b->bow), p = b->bow.c[0][0] - least, q = b->bow.c[1][1] - least, r = b->bow.c[1][0];
+    if (!is_poised(length_across(b->slope), least, b->height)) return 0;
+    const real way[2] = {p > q ? r : q, p > q ? -p : -r}, far = length_across(way);
+    const real by = b->slope[0] * way[0] + b->slope[1] * way[1] > 0 ? -most : most;
+    t[0] = far > 0 ? way[0] * (by / far) : by;
+    t[1] = far > 0 ? way[1] * (by / far) : 0;
+    return 1;
 }
 
 /* n is to stay on one edge. What share that has is told as n would be turned without it. */
@@ -488,7 +512,7 @@ static void roll(bent *b, real most, real t[2])
 {
     if (b->rows == 2) roll_to_corner(b, t);
     else if (b->rows == 1) roll_on_edge(b, most, t);
-    else turn_by(b, b->slope, more_bow(b, b->slope, most), t);
+    else if (!fall(b, most, t)) turn_by(b, b->slope, more_bow(b, b->slope, most), t);
 }
 #endif
 
@@ -552,6 +576,7 @@ static inline void start_bend(const rolling *s, bent *b)
     b->bow = b->kink = b->part = b->rim = (quadric){{{0}}};
     b->slope_off = 32 * UNIT;
     b->bow_off = b->kink_off = b->height_off = b->sway = 0;
+    b->room = -1;
     b->edges = s->edges;
     b->slants = s->slants;
     b->rows = 0;
