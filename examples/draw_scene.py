@@ -41,7 +41,7 @@ def corners(shape, dim):
         points = np.array(np.meshgrid(*[[-h, h] for h in shape["half"]])).reshape(dim, -1).T
     elif kind == "ellipsoid":
         points = ball(dim) * shape["radii"]
-    elif kind in ("sphere", "capsule"):
+    elif kind in ("sphere", "ball", "capsule"):
         points = np.concatenate([ball(dim) * r + top, ball(dim) * r - top])
     else:
         rim = np.pad(ball(2) * r, ((0, 0), (0, 1)))

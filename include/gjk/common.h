@@ -39,7 +39,8 @@ extern "C" {
 enum gjk_status {
     GJK_OK = 0,      /* the bracket is as tight as asked; no tolerance asked: as rounding allows, given the reach */
     GJK_DECIDED = 1, /* stopped early, the question being settled: a sign proven, or the cutoff passed */
-    GJK_FLOOR = 2,   /* this arithmetic yields no more: the bracket is wider than asked, or straddles contact */
+    GJK_FLOOR = 2,   /* this arithmetic yields no more: the bracket is wider than asked (or, nothing asked, some times
+                      * wider than the rounding of points explains), or straddles contact */
     GJK_LIMIT = 3,   /* stopped at max_steps, or, by penetration, where the workspace was full */
     GJK_BAD_ARGUMENT = -1, /* a null pointer; a pose, radius or option that is not finite, or negative where it may not
                             * be; options without size or from the future; tight above 1; by penetration a workspace

@@ -103,6 +103,8 @@ class Writer:
         if kind == "ellipsoid":
             radii = shape["radii"]
             return ("ball", 0, radii[:1]) if len(set(radii)) == 1 else (kind, 0, radii)
+        if kind == "ball":
+            return kind, 0, [shape["r"]]
         if kind == "box":
             return "box", 0, shape["half"]
         if kind == "points" or kind == "triangle" and self.dim == 2:

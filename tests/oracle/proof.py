@@ -42,6 +42,8 @@ def local_reach(shape, d, grown):
         return Fraction(0)
     if kind == "ellipsoid":
         return length([Fraction(r) * c for r, c in zip(shape["radii"], d)])
+    if kind == "ball":
+        return Fraction(shape["r"]) * length(d)
     if kind in ("sum", "hull"):
         parts = [reach(shape[k], d, grown) for k in "ab"]
         return sum(parts) if kind == "sum" else max(parts)

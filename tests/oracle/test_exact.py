@@ -106,6 +106,7 @@ def test_spheres_touch_exactly():
         ({"shape": "disc", "r": 2}, points([1, 1, -3]), 3),
         ({"shape": "ellipsoid", "radii": [1, 2, 3]}, points([0, 0, 5]), 2),
         ({"shape": "ellipsoid", "radii": [1, 1, 1], "pose": at(1, 2, 3)}, points([1, 5, 7]), 4),
+        ({"shape": "ball", "r": 1, "pose": [3, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3]}, points([6, 2, 3]), 2),
     ],
 )
 def test_round_shapes(a, b, distance):

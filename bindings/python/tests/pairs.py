@@ -57,6 +57,7 @@ def sets(dim: int) -> Any:
         st.fixed_dictionaries({"shape": st.just("segment"), "v": points(dim, 2, 2)}),
         st.fixed_dictionaries({"shape": st.just("triangle"), "v": points(dim, 3, 3)}),
         st.fixed_dictionaries({"shape": st.just("ellipsoid"), "radii": half}),
+        st.fixed_dictionaries({"shape": st.just("ball"), "r": size}),
     ]
     if dim == 3:
         round_ = {"r": size, "half_length": size}

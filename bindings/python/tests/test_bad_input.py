@@ -131,3 +131,49 @@ def test_flat_poses_are_legal():
     flat = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 3)
     assert gjk.distance(gjk.Box((1, 1, 1), pose=flat), gjk.Box((1, 1, 1))).value == 2
     assert gjk.distance(gjk.Box((1, 1, 1), pose=[0] * 12), gjk.Sphere(1).at((0, 0, 3))).value == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "options"),
+    [
+        (r"^option max_steps is 5\.0: ", {"max_steps": 5.0}),
+        (r"^option max_steps is -1: ", {"max_steps": -1}),
+        (r"^option max_steps is a whole number, not True", {"max_steps": True}),
+        (r"^option abs_tol is None: ", {"abs_tol": None}),
+        (r"^option slack is 'much': ", {"slack": "much"}),
+        (r"^option rel_tol is -1: negative, not finite", {"rel_tol": -1}),
+        (r"^option cutoff is inf: negative, not finite", {"cutoff": INF}),
+    ],
+)
+def test_bad_options_are_named(words, options):
+    with pytest.raises(gjk.BadArgument, match=words):
+        gjk.distance(gjk.Box((1, 1, 1)), gjk.Sphere(1), **options)
+
+
+def test_what_is_out_of_range_in_float_is_named():
+    box, ball = gjk.Box((1, 1, 1)), gjk.Sphere(1).at((9, 0, 0))
+    with pytest.raises(gjk.BadArgument, match="^option abs_tol is 1e.300: .*range of this precision"):
+        gjk.distance(box, ball, abs_tol=1e300, precision="float")
+    with pytest.raises(gjk.BadArgument, match="^b: radius is 1e.39, out of the range of this precision"):
+        gjk.distance(box, ball.rounded(1e39), precision="float")
+    assert gjk.distance(box, ball, abs_tol=1e300).upper >= 7
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        np.ma.masked_array(np.eye(3), mask=np.eye(3) > 0),
+        np.eye(3) * 1j,
+        [[1, 2, 3j]],
+        np.eye(3) > 0,
+        np.ones((2, 2, 3)),
+    ],
+    ids=["masked", "complex", "a complex number", "truth values", "three axes"],
+)
+def test_what_numpy_has_and_is_no_table_of_numbers(points):
+    with pytest.raises(gjk.BadArgument, match="^points: "):
+        gjk.Points(points)
+
+
+def test_a_mask_that_hides_nothing():
+    assert gjk.Points(np.ma.masked_array(np.eye(3), mask=False)) == gjk.Points(np.eye(3))

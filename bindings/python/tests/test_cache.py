@@ -56,6 +56,26 @@ def test_the_cache_keeps_alive_what_it_remembers():
     assert cache._held["gjk3"] == (a, second)
 
 
+def test_queries_refused_leave_nothing_behind():
+    """However many: only the shapes that C may remember are kept."""
+
+    def failing(_):
+        raise RuntimeError
+
+    cache, a, bad = gjk.Cache(), gjk.Box((1, 1, 1)), gjk.Support(failing, reach=1)
+    first = gjk.Box((2, 1, 1)).at((5, 0, 0))
+    gjk.distance(a, first, cache=cache)
+    for i in range(50):
+        with pytest.raises(RuntimeError):
+            gjk.distance(a, bad.at((i, 0, 0)), cache=cache)
+        with pytest.raises(gjk.BadSupport):
+            gjk.distance(gjk.Box((1, -1 - i, 1)), first, cache=cache)
+        assert len(cache._held["gjk3"]) <= 4
+    warm, cold = gjk.distance(a, first, cache=cache), gjk.distance(a, first)
+    assert warm.lower <= cold.upper
+    assert cold.lower <= warm.upper
+
+
 def test_one_cache_for_all_variants():
     cache = gjk.Cache()
     assert repr(cache) == "<gjk.Cache cold>"

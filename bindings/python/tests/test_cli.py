@@ -156,7 +156,7 @@ def test_cases_of_every_shape(pair, precision):
         ({"dim": "3"}, "bad argument", "dim"),
         ({"precision": "half"}, "bad argument", "precision"),
         ({"precision": []}, "bad argument", "precision"),
-        ({"options": {"max_steps": 0.5}}, "bad argument", "options"),
+        ({"options": {"max_steps": 0.5}}, "bad argument", "option max_steps is 0.5"),
         ({"options": {"rel_tol": float("nan")}}, "bad argument", "option"),
         ({"options": 3}, "bad argument", "options"),
         ({"options": {"tight": 1}}, "bad argument", "tight"),

@@ -191,6 +191,14 @@ def test_json_and_back(data, dim):
     assert there.lower == back.lower == 0
 
 
+def test_a_ball_is_asked_as_one_again():
+    """Not as an ellipsoid, whose last places are others."""
+    a, b = gjk.Ball(0.7).at((0.1, 0.2, 0.3)), gjk.Ball(0.9).at((3, 1, 2))
+    assert shape_to_json(gjk.Ball(0.7)) == {"shape": "ball", "r": 0.7}
+    again = [shape_from_json(shape_to_json(shape), 3) for shape in (a, b)]
+    assert gjk.distance(*again) == gjk.distance(a, b)
+
+
 @given(data=st.data(), dim=st.sampled_from([2, 3]))
 def test_a_posed_shape_keeps_both_poses(data, dim):
     """body.pose(shape.pose(x)), then the radius, whatever the poses are."""

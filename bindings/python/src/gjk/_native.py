@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Sequence
 from typing import Any, Callable, NamedTuple
@@ -23,6 +24,8 @@ class Variant:
         self.dim = dim
         self.precision = precision
         self.name = f"gjk{dim}" + ("f" if precision == "float" else "")
+        self.most: float = (2 - 2**-23) * 2.0**127 if precision == "float" else sys.float_info.max
+        """The largest number."""
         self.distance = self.function("distance")
         self.intersect = self.function("intersect")
         self.penetration = self.function("penetration")

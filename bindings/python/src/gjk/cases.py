@@ -43,8 +43,8 @@ _FUNCTIONS: dict[str, Callable[..., Result]] = dict(zip(QUERIES, (distance, inte
 def shape_from_json(shape: Any, dim: int) -> Shape:
     """The shape that a JSON object tells of.
 
-    {"shape": KIND, ...} with the fields of the kind - points: points; box: half; segment, triangle: v; sphere, disc:
-    r; capsule, cylinder, cone: r and half_length; ellipsoid: radii; sum, hull: a and b - and for every kind "radius"
+    {"shape": KIND, ...} with the fields of the kind - points: points; box: half; segment, triangle: v; sphere, ball,
+    disc: r; capsule, cylinder, cone: r and half_length; ellipsoid: radii; sum, hull: a and b - and for every kind "radius"
     and "pose", dim * (dim + 1) numbers.
     """
     if not isinstance(shape, dict):
@@ -73,6 +73,7 @@ _KINDS: dict[str, Callable[[dict[str, Any], int], Shape]] = {
     "triangle": lambda s, dim: Triangle(s["v"]),
     "sphere": lambda s, dim: Sphere(s["r"], dim=dim),
     "capsule": lambda s, dim: Capsule(s["r"], s["half_length"], dim=dim),
+    "ball": lambda s, dim: Ball(s["r"], dim=dim),
     "cylinder": lambda s, dim: Cylinder(s["r"], s["half_length"]),
     "cone": lambda s, dim: Cone(s["r"], s["half_length"]),
     "disc": lambda s, dim: Disc(s["r"]),
@@ -98,8 +99,6 @@ def _fields(shape: Shape) -> dict[str, Any]:
         return {"shape": kind, "r": shape.radius}
     if isinstance(shape, Capsule):
         return {"shape": kind, "r": shape.radius, "half_length": shape.half_length}
-    if isinstance(shape, Ball):
-        return {"shape": "ellipsoid", "radii": [shape.r] * shape.dim}
     if isinstance(shape, (Sum, Hull)):
         return {"shape": kind, "a": shape_to_json(shape.a), "b": shape_to_json(shape.b)}
     if kind not in _KINDS:

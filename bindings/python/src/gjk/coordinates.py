@@ -22,11 +22,15 @@ PoseLike = Union[Numbers, Iterable[Numbers], tuple[Iterable[Numbers], Numbers]]
 
 def number(x: Any, what: str) -> float:
     """x as a float."""
-    if isinstance(x, (str, bytes, bool)):
-        raise BadArgument(f"{what}: {x!r} is not a number")
+    if type(x) is float:
+        return x
+    if isinstance(x, (str, bytes, bool)) or getattr(x, "dtype", None) == bool or getattr(x, "imag", 0) != 0:
+        raise BadArgument(f"{what}: {x!r} is not a real number")
     try:
         return float(x)
-    except (TypeError, ValueError, OverflowError) as wrong:
+    except TypeError:
+        raise BadArgument(f"{what}: a {type(x).__name__} where a number is expected") from None
+    except (ValueError, OverflowError) as wrong:
         raise BadArgument(f"{what}: {wrong}") from None
 
 
@@ -47,6 +51,9 @@ def _plain(x: Any, what: str) -> list[Any]:
     """x as a list, arrays through their buffer, which is much the faster way."""
     if isinstance(x, (str, bytes, bytearray)):
         raise BadArgument(f"{what}: {x!r} is not a row of numbers")
+    mask = getattr(x, "mask", None)
+    if mask is not None and any(flag for flag in _flat(mask)):
+        raise BadArgument(f"{what}: masked values are no numbers")
     try:
         buffer = memoryview(x)
         if buffer.ndim:
@@ -57,6 +64,11 @@ def _plain(x: Any, what: str) -> list[Any]:
         return list(x)
     except TypeError:
         raise BadArgument(f"{what}: {x!r} is not a row of numbers") from None
+
+
+def _flat(mask: Any) -> Iterable[bool]:
+    """The flags of a NumPy mask, one or an array."""
+    return getattr(mask, "flat", (mask,))
 
 
 def pose_numbers(pose: Any, dim: int) -> tuple[float, ...]:

@@ -315,6 +315,8 @@ def build(shape, dim, outer=None):
     elif kind == "ellipsoid":
         stretch = [x for i, h in enumerate(shape["radii"]) for x in [0] * i + [size(h, "radii")] + [0] * (dim - i)]
         core = Round("ball", affine.after(Affine.of(stretch, dim)), 1, 0)
+    elif kind == "ball":
+        core = Round(kind, affine, size(shape["r"], "r"), 0)
     elif kind in ("cylinder", "cone", "disc") and dim == 3:
         core = Round(kind, affine, size(shape["r"], "r"), size(shape.get("half_length", 0), "half_length"))
     else:

@@ -98,7 +98,11 @@ class Cache:
         native = self._native.get(v.name)
         if native is None:
             native = self._native[v.name] = v.new("cache")
-        self._held[v.name] = (*self._held.get(v.name, ()), a, b)
+        held = self._held.get(v.name, ())
+        if len(held) > 2:  # a query was refused: of its shapes and those before C remembers some, by address
+            shapes = {shape._native(v)[0].data: shape for shape in held}
+            held = tuple(shapes[data] for data in set(native.data) if data in shapes)
+        self._held[v.name] = (*held, a, b)
         return native
 
     def _settle(self, v: Variant, a: Shape, b: Shape) -> None:
@@ -146,7 +150,7 @@ def intersect(
 ) -> Separation:
     """Do a and b meet? Ends at the first proof; `relation` of the answer says what was proven.
 
-    The options are those of `distance`.
+    The options are as for `distance`, of which cutoff and tolerances have no part in this.
     """
     v = _variant(a, b, precision)
     options = _Options(max_steps=max_steps, slack=slack, tight=tight)
@@ -232,6 +236,8 @@ def _ask(
     """The fields of a Result, or the exception that the status means."""
     if cache is not None and not isinstance(cache, Cache):
         raise BadArgument(f"cache: a Cache is expected, not {type(cache).__name__}")
+    if isinstance(options.max_steps, bool):
+        raise BadArgument(f"option max_steps is a whole number, not {options.max_steps!r}")
     if not isinstance(options.tight, bool):
         raise BadArgument(f"option tight is True or False, not {options.tight!r}")
     native_a, python_a = a._native(v)
@@ -245,7 +251,7 @@ def _ask(
     if python_a or python_b:
         raise_from_callback()
     if status < 0:
-        raise error(status, _fault(a, b, options))
+        raise error(status, _fault(v, a, b, options))
     if cache is not None:
         cache._settle(v, a, b)
     return (
@@ -266,16 +272,29 @@ def _settings(v: Variant, options: _Options, cache: Any, workspace: Any) -> Any:
     pointers = {"cache": cache, "workspace": workspace}
     try:
         return ffi.new(v.options_type, {"size": v.options_size, **pointers, **options._asdict()})
-    except (TypeError, OverflowError) as wrong:
-        raise BadArgument(f"options {tuple(options)}: {wrong}") from None
+    except (TypeError, OverflowError):
+        raise BadArgument(_misfit(v, options)) from None
 
 
-def _fault(a: Shape, b: Shape, options: _Options) -> str:
+def _misfit(v: Variant, options: _Options) -> str:
+    """The first option that is no number such as its field holds."""
+    for name, value in options._asdict().items():
+        try:
+            ffi.new(v.options_type, {name: value})
+        except (TypeError, OverflowError) as wrong:
+            return f"option {name} is {value!r}: {wrong}"
+    return f"options {tuple(options)}"
+
+
+def _fault(v: Variant, a: Shape, b: Shape, options: _Options) -> str:
     """Words for what the library has refused."""
     for name, shape in (("a", a), ("b", b)):
         fault = shape._fault()
         if fault:
             return f"{name}: {fault}"
-    if any(not 0 <= x < float("inf") for x in options):
-        return "an option is negative or not finite"
+        if shape.radius > v.most:
+            return f"{name}: radius is {shape.radius}, out of the range of this precision"
+    for name, value in options._asdict().items():
+        if not 0 <= value <= v.most:
+            return f"option {name} is {value}: negative, not finite or out of the range of this precision"
     return "a point not finite, out of the range of this precision or beyond its reach; or points of no convex set"
