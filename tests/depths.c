@@ -1074,6 +1074,48 @@ static void looser_takes_no_more_steps(void **state)
     assert_true(deep > pairs_per_family && saved > (VARIANT_FLOAT ? 0 : deep / 4));
 }
 
+/* Needles and plates all but on one spot, asked roughly: the points are as far apart as the bodies are deep, to what
+ * the bracket leaves open, and whether they overlap is told whatever is asked. */
+static void plates_roughly(void **state)
+{
+    long done = 0;
+    (void)state;
+    for (at = 0; at < 4 * pairs_per_family; at++) {
+        V(options) o = default_options();
+        V(result) exactly, r;
+        draws d = draws_from(seed, 2008, (uint64_t)at);
+        draw_any(&d, &drawn.a, ELLIPSOID);
+        draw_any(&d, &drawn.b, ELLIPSOID);
+        for (int i = 0; i < DIM; i++) {
+            const int thin = VARIANT_FLOAT ? -3 : -8;
+            drawn.a.half[i] *= (real)magnitude(&d, thin, thin + 2);
+            drawn.b.half[i] *= (real)(i == DIM - 1 ? magnitude(&d, thin, thin + 1) : 1);
+            drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)(1e-4 * (double)drawn.a.half[i] * between(&d, -1, 1));
+        }
+        bind_pair(&drawn);
+        p = &drawn;
+        ask(NULL, &exactly);
+        if (exactly.status != GJK_OK || !(exactly.upper < 0)) {
+            continue;
+        }
+        o.abs_tol = (real)(-(double)exactly.value * magnitude(&d, -3, -1));
+        ask(&o, &r);
+        double square = 0;
+        for (int i = 0; i < DIM; i++) {
+            square += pow((double)r.point_a[i] - (double)r.point_b[i], 2);
+        }
+        expect_answer("the points are not as far apart as the bodies are deep", &r,
+                      r.status != GJK_OK ||
+                          fabs(sqrt(square) + (double)r.value) <= 64 * U * span() + 4 * sqrt(width_of(&r) * span()));
+        o.abs_tol = VARIANT_FLOAT ? (real)FLT_MAX : (real)DBL_MAX;
+        ask(&o, &r);
+        expect_answer("whatever is asked, that they overlap is told", &r, r.status != GJK_OK || r.upper < 0);
+        done++;
+    }
+    printf("%-6s plates: %ld\n", VARIANT, done);
+    assert_true(done > pairs_per_family);
+}
+
 /* Round bodies with several ways out that are as short but for some last places: the normal is that of the best bound.
  */
 static void as_deep_several_ways(void **state)
@@ -2096,6 +2138,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(round_shapes),
         cmocka_unit_test(round_shapes_roughly),
         cmocka_unit_test(looser_takes_no_more_steps),
+        cmocka_unit_test(plates_roughly),
         cmocka_unit_test(as_deep_several_ways),
         cmocka_unit_test(as_well_as_hidden),
         cmocka_unit_test(all_but_concentric),

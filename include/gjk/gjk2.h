@@ -109,7 +109,7 @@ GJK_API int gjk2_distance(const gjk2_shape *a, const gjk2_shape *b, const gjk2_o
  *   upper == 0   they meet: proven of points, box, segment and origin, however slightly
  *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
  *                                  status GJK_LIMIT: not found out within max_steps
- * abs_tol, rel_tol and cutoff play no part. */
+ * abs_tol, rel_tol and cutoff play no part. It takes no more of the stack than distance. */
 GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
 
 /* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else minus

@@ -109,7 +109,7 @@ GJK_API int gjk3_distance(const gjk3_shape *a, const gjk3_shape *b, const gjk3_o
  *   upper == 0   they meet: proven of points, box, segment, triangle and origin, however slightly
  *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
  *                                  status GJK_LIMIT: not found out within max_steps
- * abs_tol, rel_tol and cutoff play no part. */
+ * abs_tol, rel_tol and cutoff play no part. It takes no more of the stack than distance. */
 GJK_API int gjk3_intersect(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
 
 /* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else minus

@@ -303,32 +303,34 @@ static int find_dip_of_all(const depth *d, bent *b)
            (room_for_ball(of, b) > 0 || is_centred(of, b->height));
 }
 
-/* What the dip proves of all ways is as narrow as facets would get, or as asked. */
-static int is_enough(const depth *d, const dip *f)
+/* What the dip proves of all ways is as narrow as facets would get, or as asked, or as is to be had. */
+static int is_enough(const depth *d, const dip *f, int last)
 {
-    return f->far == 0 || is_tight(d->q, -f->floor) || is_as_asked(d, d->q->lower, -f->floor);
+    return last || f->far == 0 || is_tight(d->q, -f->floor) || is_as_asked_by(d, f, -f->floor);
 }
 
-/* The depth by a dip alone, before there is a surface. 0: none tells it. -1: a support's answer was none. */
-static int fathom_by_dip(depth *d, real *upper)
+/* The depth by a dip alone, before there is a surface; or at last, where none has come to an end. 0: none tells it. -1:
+ * a support's answer was none. */
+static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
 {
     bent b;
-    dips *all = d->dips;
-    dip *f = all ? &all->at[0] : NULL;
     if (!all || d->q->steps >= d->g->max_steps || !find_dip_of_all(d, &b)) return 0;
+    dip *f = &all->at[last ? MOST_DIPS - 1 : 0];
     search *q = d->q;
     const real lower = q->lower;
     const vec normal = q->normal;
     const int taken = take_dip(d, &b, f);
     if (taken < 0) return -1;
-    if (taken && !f->everywhere) {
+    if (taken && !f->everywhere && f->held > CLEAR) {
         *upper = smaller(*upper, -f->held);
-        f->everywhere = is_as_asked(d, q->lower, -f->held);
+        all->held = 1;
+        f->everywhere = last || is_as_asked_by(d, f, -f->held);
         if (f->everywhere) f->floor = f->held;
+        if (f->everywhere) f->far = 0;
     }
-    if (taken && f->everywhere && bounds_as_well(q, f) && is_enough(d, f)) {
+    if (taken && f->everywhere && bounds_as_well(q, f) && is_enough(d, f, last)) {
         all->best = f;
-        all->n = 1;
+        if (!last) all->n = 1;
         return 1;
     }
     q->lower = lower; /* to begin where the search has come to */
@@ -396,8 +398,8 @@ static int is_open(depth *d, int proven, real upper)
 }
 
 /* What both bounds of a facet are charged for roundings at most, but for the doubt and the slack, in a frame where
- * heights are up to 2: 4 (2 + 2) by floor_of, 8 times 2 more by a dip, and 5 (2 + 2 sqrt(3)) by raise. */
-#define CHARGED (64 * UNIT)
+ * heights are up to 2: 6 (2 + 2) by floor_of, 8 times 2 more by a dip, and 5 (2 + 2 sqrt(3)) by raise. */
+#define CHARGED (68 * UNIT)
 
 /* The bracket is as narrow as one that is closed. */
 static int is_bounded(const search *q, real upper) { return upper - q->lower <= 2 * q->d.doubt + q->d.slack + CHARGED; }
@@ -459,6 +461,17 @@ static int prove_grown(depth *d, real *upper, enum end *end)
     return *end != FAULT && prove(d, upper);
 }
 
+/* Where room for the surface is used up, and an ellipsoid tells as much of all ways as there is: with its dip. */
+static enum end end_by_all(depth *d, dips *all, real *upper)
+{
+    dips *const before = d->dips;
+    if (all->n == MOST_DIPS) return OPEN;
+    d->dips = all;
+    const int told = fathom_by_dip(d, all, upper, 1);
+    if (told <= 0) d->dips = before;
+    return told > 0 ? STILL : told < 0 ? FAULT : OPEN;
+}
+
 /* The cores meet, or nearly so: how deep. Where the difference is flat to rounding, the search's points, which are one
  * to rounding, are the contact. What curvature proves is worth its while where all digits are asked for, and only there
  * do bounds and normal stay together with it. What can't be settled anew stands as it is known by then. */
@@ -469,13 +482,15 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.n = 0;
     own.best = NULL;
     own.tried = REAL_MAX;
+    own.held = 0;
     own.first = d->q->first_dip;
     if (!g->exact && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) d->dips = &own;
     d->p.whole = &d->q->d;
-    const int told = fathom_by_dip(d, upper);
+    const int told = fathom_by_dip(d, d->dips, upper, 0);
     enum end end = told < 0 ? FAULT : told ? CLOSE : first_surface(d);
     int flat = !told && d->p.facets == 0;
     if (end == OPEN && !flat) end = grow_surface(d);
+    if (end == OPEN && own.held && !flat) end = end_by_all(d, &own, upper);
     if (end == FAULT) return end;
     if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     const int proven = prove_grown(d, upper, &end), open = g->exact && end == STILL && is_open(d, proven, *upper);

@@ -13,6 +13,7 @@ typedef struct dip {
     vec n, at;
     vertex corner;          /* along n, */
     real below;             /* and the bound from below that it gave */
+    real aside;             /* so far is the corner from where n is that high */
     real height;            /* of A - B along n, at least */
     quadric bow, kink;      /* see bent, */
     quadric part, rim;      /*   of cones' edges: */

@@ -144,8 +144,9 @@ static real height_of_all(const bulk *of, const bent *b, real room, real r, real
     for (int i = 0; i < of->limbs; i++) give_limb(of, b, i, &e);
     vec u[ACROSS];
     for (int j = 0; j < ACROSS; j++) u[j] = mul(b->e[j], 1 / root(b->height * e.along));
-    const real spare = smaller(spare_across(of, b, &e, u), 0);
-    return spare >= -ALL_BUT ? b->height * (1 + spare) - 4 * apart - 512 * UNIT - 8 * slope_of(b) : -REAL_MAX;
+    const real spare = spare_across(of, b, &e, u);
+    if (!(spare >= -ALL_BUT)) return -REAL_MAX;
+    return b->height * (1 + smaller(spare, 0)) - 4 * apart - 512 * UNIT - 8 * slope_of(b);
 }
 
 #endif

@@ -27,6 +27,7 @@ typedef struct dips {
     dip *best; /* the lowest; NULL: none */
     int n;
     real tried; /* how deep it was known to be at most when one was last looked for */
+    int held;   /* what an ellipsoid proves of all ways is in the bracket */
 } dips;
 
 typedef struct depth {
@@ -356,7 +357,7 @@ static inline real below_height(twin h) { return h.high - 2 * UNIT * size(h.high
 /* A lower bound of the heights of the facet's points along its n, in the frame, without the corners' own rounding. */
 static real floor_of(const depth *d, const facet *f)
 {
-    if (!d->g->exact) return f->height - 4 * UNIT * (size(f->height) + 2) - d->q->d.doubt;
+    if (!d->g->exact) return f->height - 6 * UNIT * (size(f->height) + 2) - d->q->d.doubt;
     return below_height(same(f->n, d->sight.n) ? floor_seen(d, f) : fine_floor(&d->p, f, f->n));
 }
 
@@ -549,6 +550,13 @@ static inline int is_as_asked(const depth *d, real lower, real upper)
 {
     const goal *g = d->g;
     return upper - lower <= g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
+}
+
+/* The same of the dip's, whose corner stands no farther off its way than the root of what that leaves open. */
+static inline int is_as_asked_by(const depth *d, const dip *f, real upper)
+{
+    const real width = upper + f->height;
+    return is_as_asked(d, f->below, upper) && f->aside * f->aside <= larger(width, 64 * UNIT) * f->height;
 }
 
 /* The same of the bracket that the lowest facet proves, which no dip's tip is to be of account to. */
@@ -772,6 +780,7 @@ static int set_floor(dip *f, const bulk *of, bent *b, real h)
         f->everywhere = is_least_of_all(b, room, h - f->floor, f->far);
         return 1;
     }
+    f->at = f->corner.w; /* never planted */
     f->far = 0;
     f->floor = f->held;
     f->everywhere = f->floor > CLEAR && h - f->floor <= ALONE_OFF && is_level_around(b);
@@ -798,7 +807,8 @@ static int take_dip(depth *d, bent *b, dip *f)
     f->corner = (vertex){t.w, t.x, t.y};
     share_out(&d->dips->first->bulk, b, &f->corner);
     f->corner.w = corner_of(&q->d, f->corner.x, f->corner.y);
-    f->height = h - 4 * UNIT * (size(h) + 2) - q->d.doubt - b->height_off;
+    f->aside = length(sub(f->corner.w, mul(b->n, h)));
+    f->height = h - 6 * UNIT * (size(h) + 2) - q->d.doubt - b->height_off;
     f->bow = b->bow;
     f->kink = b->kink;
     f->part = b->part;
@@ -808,7 +818,7 @@ static int take_dip(depth *d, bent *b, dip *f)
     f->kink_off = b->kink_off;
     f->sway = b->sway;
     f->slope = length_across(b->slope) + b->slope_off;
-    if (set_floor(f, &d->dips->first->bulk, b, h)) return 1;
+    if (set_floor(f, &d->dips->first->bulk, b, h) && (f->far > 0 || f->below >= lower - 4 * q->d.doubt)) return 1;
     q->lower = lower; /* no facet may be near that n, for points to go with it */
     q->normal = normal;
     return 0;
@@ -871,7 +881,8 @@ static int is_proven(const depth *d, const facet *f)
 /* The same as narrowly as asked. */
 static int is_proven_as_asked(const depth *d, const facet *f)
 {
-    return lowest_dip(d) && !d->narrowed && is_narrow(d, f, d->q->lower);
+    const dip *at = lowest_dip(d);
+    return at && !d->narrowed && is_narrow(d, f, d->q->lower) && is_as_asked_by(d, at, d->q->d.doubt - f->height);
 }
 
 /* The way out of a proven facet is asked, too, where it is another than the dip's: of two that are as short to rounding

@@ -699,7 +699,9 @@ static int is_at_rest(const bent *b, const real t[ACROSS], real far)
         const real off = is_on_slant(b, b->of[r]) ? b->share[r] - b->sign[b->of[r]] : 0;
         if (off * off > 4 * UNIT) return 0;
     }
-    return far * far <= 4 * UNIT || (b->rows < ACROSS && size(change_along(b, t)) <= 4 * UNIT * far);
+    if (b->rows < ACROSS && size(change_along(b, t)) <= 4 * UNIT * far) return 1;
+    const real bent_by = far * b->sway; /* so much of the bow may have changed on the way, and with it the next turn */
+    return far <= 16 * UNIT || (far * far <= 4 * UNIT && bent_by * bent_by <= 4096 * UNIT);
 }
 
 /* The edge whose share is too large for n to stay on it is left. 0: there is none. */
