@@ -13,8 +13,7 @@
 #define WIDTH 100
 #define SHALLOW 300 /* of known corners: a deeper overlap is seen */
 /* Of others: 440 doubt, or needles thinner than 1e-5 of their length around a single point (docs/design.md). There the
- * walk may also end with a bracket wider than rounding, and says GJK_FLOOR; so it may of known corners whose numbers
- * span more digits than the exact finish holds. */
+ * walk may also end with a bracket wider than rounding, and says GJK_FLOOR. */
 #define SHALLOW_UNKNOWN fmax(8800, 1e-5 / U)
 #define EXACT_DIGITS 1200  /* more than that between the ends of the numbers, and tight is no more than usual */
 #define SLOP ((quad)1e-28) /* of the truth itself: it is sought for a pair of size 1 */
@@ -333,35 +332,6 @@ static inline double width_of(const question *q)
     return q->s.silent[0] || q->s.silent[1] ? wide * sqrt(DIM) : wide;
 }
 
-/* The exponent of the lowest digit. */
-static inline int lowest(const real *x, int count)
-{
-    int least = -NOTHING, e;
-    for (int i = 0; i < count; i++) {
-        double digits = frexp((double)x[i], &e);
-        for (; digits - floor(digits) != 0; e--) {
-            digits *= 2;
-        }
-        least = x[i] != 0 && e < least ? e : least;
-    }
-    return least;
-}
-
-static inline int lower_of(int x, int y) { return x < y ? x : y; }
-
-/* From the lowest digit of a posed coordinate, or of a radius, to the size of the pair. */
-static inline int digits_between(const question *q)
-{
-    int low = -NOTHING;
-    for (int k = 0; k < 2; k++) {
-        const body *b = k ? &q->s.p.b : &q->s.p.a;
-        int set = lower_of(lowest(b->v[0], b->count * DIM), lowest(b->half, DIM));
-        low = lower_of(low, lower_of(set + lowest(b->pose.m, DIM * DIM), lowest(b->pose.p, DIM)));
-        low = lower_of(low, lowest(&b->shape.radius, 1));
-    }
-    return q->exponent - low;
-}
-
 /* What points are rounded by: the sizes, and how far out they stand. 0: of what is so far out nothing is asked. */
 static inline quad scale_of_points(const question *q, const V(result) * r)
 {
@@ -498,8 +468,7 @@ static inline void check_distance_status(const question *q, const V(result) * r)
     if (q->tame && o->slack == 0 && r->status == GJK_OK && !(width <= asked || wide <= width_of(q))) {
         broken(q, "ok, but wider than asked, in u * span", r, wide);
     }
-    const double most = q->known && digits_between(q) <= EXACT_DIGITS ? width_of(q) : SHALLOW_UNKNOWN;
-    if (q->tame && o->slack == 0 && r->status == GJK_FLOOR && !(wide <= most)) {
+    if (q->tame && o->slack == 0 && r->status == GJK_FLOOR && !(wide <= (q->known ? width_of(q) : SHALLOW_UNKNOWN))) {
         broken(q, "floor, but wider than rounding, in u * span", r, wide);
     }
     if (r->status == GJK_FLOOR && o->abs_tol > 0 && width <= (double)o->abs_tol * (1 - 8 * U)) {
@@ -525,6 +494,35 @@ static inline void check_value(const question *q, const V(result) * r)
     if (r->status != GJK_OK && r->status != GJK_FLOOR && q->sharp) {
         broken(q, "without a limit or a cutoff, yet stopped early", r, r->status);
     }
+}
+
+/* The exponent of the lowest digit. */
+static inline int lowest(const real *x, int count)
+{
+    int least = -NOTHING, e;
+    for (int i = 0; i < count; i++) {
+        double digits = frexp((double)x[i], &e);
+        for (; digits - floor(digits) != 0; e--) {
+            digits *= 2;
+        }
+        least = x[i] != 0 && e < least ? e : least;
+    }
+    return least;
+}
+
+static inline int lower_of(int x, int y) { return x < y ? x : y; }
+
+/* From the lowest digit of a posed coordinate, or of a radius, to the size of the pair. */
+static inline int digits_between(const question *q)
+{
+    int low = -NOTHING;
+    for (int k = 0; k < 2; k++) {
+        const body *b = k ? &q->s.p.b : &q->s.p.a;
+        int set = lower_of(lowest(b->v[0], b->count * DIM), lowest(b->half, DIM));
+        low = lower_of(low, lower_of(set + lowest(b->pose.m, DIM * DIM), lowest(b->pose.p, DIM)));
+        low = lower_of(low, lowest(&b->shape.radius, 1));
+    }
+    return q->exponent - low;
 }
 
 /* Whether bodies that seem to touch do so: with so few digits no distance but 0 is as small as SLOP. */
