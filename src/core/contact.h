@@ -295,12 +295,12 @@ static int find_dip_of_all(const depth *d, bent *b)
 {
     const bulk *of = &d->dips->first->bulk;
     bent *first = first_dip_of(d);
-    if (first && room_for_ball(of, first) > 0) {
+    if (first && known_room(of, first) > 0) {
         *b = *first;
         return 1;
     }
     return are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) &&
-           (room_for_ball(of, b) > 0 || is_centred(of, b->height));
+           (known_room(of, b) > 0 || is_centred(of, b->height));
 }
 
 /* What the dip proves of all ways is as narrow as facets would get, or as asked, or as is to be had. */
@@ -325,8 +325,10 @@ static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
         *upper = smaller(*upper, -f->held);
         all->held = 1;
         f->everywhere = last || is_as_asked_by(d, f, -f->held);
-        if (f->everywhere) f->floor = f->held;
-        if (f->everywhere) f->far = 0;
+        if (f->everywhere) {
+            f->floor = f->held;
+            f->far = 0;
+        }
     }
     if (taken && f->everywhere && bounds_as_well(q, f) && is_enough(d, f, last)) {
         all->best = f;
@@ -473,8 +475,8 @@ static enum end end_by_all(depth *d, dips *all, real *upper)
 }
 
 /* The cores meet, or nearly so: how deep. Where the difference is flat to rounding, the search's points, which are one
- * to rounding, are the contact. What curvature proves is worth its while where all digits are asked for, and only there
- * do bounds and normal stay together with it. What can't be settled anew stands as it is known by then. */
+ * to rounding, are the contact. What curvature proves ends it sooner whatever is asked. What can't be settled anew
+ * stands as it is known by then. */
 static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
 {
     const goal *g = d->g;

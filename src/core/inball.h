@@ -103,7 +103,7 @@ static real room_of_ball(const bulk *of, const bent *b)
 }
 
 /* The same, told once. */
-static real room_for_ball(const bulk *of, bent *b)
+static real known_room(const bulk *of, bent *b)
 {
     if (b->room < 0) b->room = room_of_ball(of, b);
     return b->room;
@@ -128,7 +128,9 @@ static inline int is_centred(const bulk *of, real height)
 }
 
 /* Whether there are ways beside n along which A - B is about as high, as of balls that share their middles: corners
- * prove these but slowly, and what the ellipsoid proves is taken if it is no more than so much off. */
+ * prove these but slowly, and what the ellipsoid proves is taken if it is no more than so much off: of a frame of size
+ * 2, four times what middles may be apart where neither their way nor the bodies' own unroundness, in float poses
+ * 2^-24, decides which way is the least; and what is charged, in float. */
 #define ALONE_OFF ((real)0x1p-25 + (real)0x1p16 * UNIT)
 static inline int is_level_around(const bent *b) { return least_value(&b->bow) <= b->height * (1 + (real)0x1p-8); }
 

@@ -770,7 +770,7 @@ static int find_lowest_dip(const depth *d, int facets, bent *best)
 /* What curvature and ellipsoids prove of the ways near the dip, whose corner is h high, and of all. 0: nothing. */
 static int set_floor(dip *f, const bulk *of, bent *b, real h)
 {
-    const real room = room_for_ball(of, b);
+    const real room = known_room(of, b);
     f->planted = f->frayed = 0;
     f->everywhere = 0;
     f->held = -REAL_MAX;
@@ -817,7 +817,7 @@ static int take_dip(depth *d, bent *b, dip *f)
     f->bow_off = b->bow_off;
     f->kink_off = b->kink_off;
     f->sway = b->sway;
-    f->slope = length_across(b->slope) + b->slope_off;
+    f->slope = slope_of(b);
     if (set_floor(f, &d->dips->first->bulk, b, h) && (f->far > 0 || f->below >= lower - 4 * q->d.doubt)) return 1;
     q->lower = lower; /* no facet may be near that n, for points to go with it */
     q->normal = normal;
