@@ -10,7 +10,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 
 typedef struct pair_facts {
-    int sharp; /* corners that the library knows, no radius, and numbers not too unlike for the exact finish */
+    int sharp; /* corners that the library knows, and no radius */
     int meets; /* for certain */
     quad scale;
 } pair_facts;
@@ -27,7 +27,7 @@ static pair_facts learn(question *q)
         started = 1;
     }
     exactly = settle(&q->t, &best, &q->one.p.a, &q->one.p.b);
-    f.sharp = exactly && !radii && digits_between(q) <= EXACT_DIGITS;
+    f.sharp = exactly && !radii;
     f.meets = exactly && !radii ? !q->t.apart : q->t.upper <= 0;
     return f;
 }

@@ -897,6 +897,38 @@ static void concentric(void **state)
     }
 }
 
+/* Points along a line but for a few roundings, and with one aside for hardly more, against themselves: as thick as
+ * facets' normals are rough, or hardly thicker. */
+static void hardly_thicker_than_rounding(void **state)
+{
+    long deep = 0;
+    double widest = 0;
+    (void)state;
+    for (int k = 0; k < 20 * (int)pairs_per_family; k++) {
+        V(result) r;
+        draws d = draws_from(seed, 1004, (uint64_t)k);
+        start_pair(POINTS, POINTS);
+        drawn.a.count = 4 + below(&d, 8);
+        for (int i = 0; i < drawn.a.count; i++) {
+            const double along = below(&d, 3) ? 0.75 : 0;
+            for (int j = 0; j < DIM; j++) {
+                const double off = along > 0 ? 2 * U * (below(&d, 16) - 8) : 0;
+                drawn.a.v[i][j] = (real)(i == 0 && j > 0 ? 0 : i == 0 ? 0.75 : along + off);
+            }
+        }
+        drawn.b = drawn.a;
+        bind_pair(&drawn);
+        find_truth_of_pair();
+        ask_for_truth(NULL, &r);
+        if (meets && r.status == GJK_OK) {
+            widest = fmax(widest, in_u((quad)width_of(&r), scale()));
+            deep++;
+        }
+    }
+    printf("%-6s hardly thicker: %ld overlap, width %.1f\n", VARIANT, deep, widest);
+    assert_true(deep > 10 * pairs_per_family && widest <= WIDTH);
+}
+
 /* One cube on another: they touch, and the way out is the one they are stacked along. */
 static void stacked(void **state)
 {
@@ -1039,7 +1071,7 @@ static void looser_takes_no_more_steps(void **state)
     (void)state;
     for (at = 0; at < 4 * pairs_per_family; at++) {
         V(options) o = default_options();
-        V(result) r, last;
+        V(result) r, last = {0};
         draws d = draws_from(seed, 2006, (uint64_t)at);
         draw_any(&d, &drawn.a, round_kinds[below(&d, ROUND_KINDS)]);
         draw_any(&d, &drawn.b, at % 4 ? round_kinds[below(&d, ROUND_KINDS)] : ELLIPSOID);
@@ -1069,6 +1101,10 @@ static void looser_takes_no_more_steps(void **state)
             deep += k == 0;
             last = r;
         }
+        o.rel_tol = 0;
+        o.abs_tol = VARIANT_FLOAT ? (real)FLT_MAX : (real)DBL_MAX;
+        ask(&o, &r);
+        expect_answer("whatever is asked, that they overlap is told", &r, r.upper < 0 || !(last.upper < 0));
     }
     printf("%-6s looser: %ld overlap, %ld times fewer steps\n", VARIANT, deep, saved);
     assert_true(deep > pairs_per_family && saved > (VARIANT_FLOAT ? 0 : deep / 4));
@@ -1223,6 +1259,30 @@ static void all_but_concentric(void **state)
     assert_int_equal(astray, 0);
 }
 
+/* The same with hardly any room: what no ellipsoid proves is left to more of it, and not called the end. */
+static void with_hardly_any_room(void **state)
+{
+    long limits = 0;
+    (void)state;
+    for (at = 0; at < 50 * pairs_per_family; at++) {
+        V(options) o = default_options();
+        V(result) r;
+        draws d = draws_from(seed, 2009, (uint64_t)at);
+        draw_any(&d, &drawn.a, ELLIPSOID);
+        draw_any(&d, &drawn.b, ELLIPSOID);
+        put_off(&d, 1e-3);
+        bind_pair(&drawn);
+        p = &drawn;
+        o.workspace = room.bytes;
+        o.workspace_bytes = (uint32_t)V(workspace_size)(8);
+        ask(&o, &r);
+        expect_answer("the end, and left open", &r, r.status == GJK_LIMIT || width_of(&r) <= (1e-8 + 256 * U) * span());
+        limits += r.status == GJK_LIMIT;
+    }
+    printf("%-6s hardly any room: %ld limits\n", VARIANT, limits);
+    assert_true(limits > (DIM == 2 && VARIANT_FLOAT ? -1 : 0));
+}
+
 /* Ellipsoids that share their middles to what is left of a small number, where many ways out are as short, or of balls
  * all: nothing is left open, and a ten thousandth is known at once. */
 static void sharing_middles(void **state)
@@ -1256,6 +1316,29 @@ static void sharing_middles(void **state)
 }
 
 #if DIM == 3
+/* Ellipsoids next to balls, of which the usual room is full before the surface is done: what an ellipsoid within proves
+ * of all ways is taken with its own points. */
+static void next_to_balls(void **state)
+{
+    static const double radii[2][3] = {{0x1.feaa20d364ad7p-1, 0x1.fe67d653074ddp-1, 0x1.fea71386d6019p-1},
+                                       {0x1.723940ecae5dp-2, 0x1.723940ec4ae5fp-2, 0x1.72393b193e8d5p-2}};
+    V(result) r;
+    (void)state;
+    start_pair(ELLIPSOID, ELLIPSOID);
+    for (int i = 0; i < 3; i++) {
+        drawn.a.half[i] = (real)radii[0][i];
+        drawn.b.half[i] = (real)radii[1][i];
+    }
+    bind_pair(&drawn);
+    ask(NULL, &r);
+    double square = 0;
+    for (int i = 0; i < 3; i++) {
+        square += pow((double)r.point_a[i] - (double)r.point_b[i], 2);
+    }
+    expect_answer("the points are not as far apart as the bodies are deep", &r,
+                  fabs(sqrt(square) + (double)r.value) <= 4096 * U);
+}
+
 /* Two ellipsoids with their shortest way out across, the middles apart along it but for what has a square that is no
  * normal number: no direction is made of that, and the way out is not taken for one along the middles. */
 static void aside_by_next_to_nothing(void **state)
@@ -2142,8 +2225,11 @@ int main(int argc, char **argv)
         cmocka_unit_test(as_deep_several_ways),
         cmocka_unit_test(as_well_as_hidden),
         cmocka_unit_test(all_but_concentric),
+        cmocka_unit_test(with_hardly_any_room),
         cmocka_unit_test(sharing_middles),
+        cmocka_unit_test(hardly_thicker_than_rounding),
 #if DIM == 3
+        cmocka_unit_test(next_to_balls),
         cmocka_unit_test(aside_by_next_to_nothing),
         cmocka_unit_test(tips_next_to_axes),
         cmocka_unit_test(cones_in_each_other),

@@ -316,6 +316,133 @@ static void radius_off_long_numbers(void **state)
     }
 }
 
+/* Corners, maps and positions among whose numbers some are of a few last places of the least, so that products of them
+ * all have more digits than the exact finish holds: it leaves those out, and tells the rest as it does elsewhere. */
+static void draw_unlike(body *k, draws *d, double size)
+{
+    k->kind = below(d, 3) ? POINTS : BOX;
+    k->count = 2 + below(d, 8);
+    double m[DIM * DIM];
+    rotation(d, INFINITY, m);
+    for (int i = 0; i < DIM * DIM; i++) {
+        k->pose.m[i] = (real)(below(d, 6) ? m[i] : TINY * below(d, 8));
+    }
+    for (int i = 0; i < DIM; i++) {
+        k->half[i] = (real)(below(d, 3) ? size * between(d, 0, 1) : TINY * below(d, 8));
+        k->pose.p[i] = (real)(below(d, 3) ? size * between(d, -0.5, 0.5) : TINY * below(d, 8));
+        for (int j = 0; j < k->count; j++) {
+            k->v[j][i] = (real)(below(d, 4) ? size * between(d, -1, 1) : TINY * below(d, 8));
+        }
+    }
+    bind(k);
+}
+
+static void numbers_unlike(void **state)
+{
+    const int most = VARIANT_FLOAT ? 40 : 200;
+    long apart = 0, meet = 0;
+    double widest = 0;
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        static truth t;
+        draws d = draws_from(30, 0, (uint64_t)n);
+        const double size = ldexp(1, below(&d, 2 * most) - most);
+        V(options) o = default_options();
+        V(result) r;
+        fresh(NULL);
+        draw_unlike(&a, &d, size);
+        draw_unlike(&b, &d, size);
+        find_truth(&t, &a, &b, 1);
+        const quad u = (quad)REAL_EPSILON / 2 * t.scale, off = 1e-31 * t.scale;
+        expect(NULL, t.lower, t.upper, NEVER);
+        o.tight = 1;
+        assert_int_equal(V(distance)(&a.shape, &b.shape, &o, &r), GJK_OK);
+        assert_true((quad)r.upper - (quad)r.lower <= (quad)(2 * REAL_EPSILON) * (quad)r.upper + off);
+        assert_true(r.upper == 0 || !(t.upper < -u));
+        apart += t.apart;
+        if (V(penetration)(&a.shape, &b.shape, NULL, &r) == GJK_OK && !t.apart && t.certified) {
+            assert_true((quad)r.lower <= t.upper && t.lower <= (quad)r.upper);
+            widest = fmax(widest, (double)(((quad)r.upper - (quad)r.lower) / u));
+            meet++;
+        }
+    }
+    printf("%-6s unlike numbers: %ld apart, %ld meet, by brackets of %.1f u * scale at most\n", VARIANT, apart, meet,
+           widest);
+    assert_true(apart > DRAWS / 4 && meet > DRAWS / 8 && widest <= 16);
+}
+
+/* Two squares, in the plane two segments, whose numbers are as unlike, apart by less than what is left out of these: no
+ * bracket says that they meet. */
+static void unlike_and_hardly_apart(void **state)
+{
+    const int least = VARIANT_FLOAT ? -140 : -1060, most = VARIANT_FLOAT ? -20 : -300;
+    (void)state;
+    for (int n = 0; n < DRAWS; n++) {
+        draws d = draws_from(31, 0, (uint64_t)n);
+        const double gap = ldexp(1, least + below(&d, most - least));
+        fresh(NULL);
+        for (int k = 0; k < 2; k++) {
+            body *of = k ? &b : &a;
+            of->kind = POINTS;
+            of->count = 1 << (DIM - 1);
+            for (int i = 0; i < of->count; i++) {
+                for (int j = 0; j < DIM - 1; j++) {
+                    of->v[i][j] = (real)(i >> j & 1 ? 1 : -1);
+                }
+                of->v[i][DIM - 1] = (real)(TINY * below(&d, 4));
+            }
+            for (int i = 0; i < DIM * DIM; i++) {
+                of->pose.m[i] = (real)(i % (DIM + 1) == 0 ? 1 : TINY * below(&d, 4));
+            }
+            bind(of);
+        }
+        b.pose.p[DIM - 1] = (real)gap;
+        expect(NULL, (quad)gap - 64 * (quad)TINY, (quad)gap + 64 * (quad)TINY, NEVER);
+        for (int k = 0; k < 2; k++) {
+            V(options) o = default_options();
+            V(result) r;
+            o.tight = (uint32_t)k;
+            assert_true(V(penetration)(&a.shape, &b.shape, &o, &r) >= 0);
+            assert_true((quad)r.lower <= (quad)gap + 64 * (quad)TINY && (quad)gap - 64 * (quad)TINY <= (quad)r.upper);
+        }
+    }
+}
+
+#if DIM == 3 && !VARIANT_FLOAT
+/* Two boxes sheared a billion to one, one beside itself with numbers of a few last places of the least, which overlap
+ * by millions of roundings: that is told though their numbers are not to be held all together. */
+static void unlike_and_sheared(void **state)
+{
+    static const double half[2][3] = {{5e-324, 1, 1.0000000000000002},
+                                      {2.8961780008078509e-05, 3.6841747807521447e-05, 520085119.79218149}};
+    static const double m[9] = {-1e-323,
+                                -3.5e-323,
+                                127375255.59215593,
+                                2.8961780024509809e-05,
+                                0.47003676470588229,
+                                1e-323,
+                                6.1035156249970835e-05,
+                                127375255.59215586,
+                                6.0908807334307514e-05};
+    static const double at[3] = {-1.5e-323, -1e-323, -1.5e-323};
+    V(result) r;
+    (void)state;
+    a.kind = b.kind = BOX;
+    for (int i = 0; i < 3; i++) {
+        a.half[i] = half[0][i];
+        b.half[i] = half[1][i];
+        a.pose.p[i] = at[i];
+    }
+    memcpy(a.pose.m, m, sizeof m);
+    bind(&a);
+    bind(&b);
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(V(distance)(k ? &b.shape : &a.shape, k ? &a.shape : &b.shape, NULL, &r), GJK_OK);
+        assert_true(r.upper == 0);
+    }
+}
+#endif
+
 /* A box that its map flattens to a line but for rounding, with b on it or next to it, and one or both of them a couple,
  * so that no finish knows all corners. The generous reach of couples makes the box small in the pair's frame, and with
  * it the weights' errors that are to be seen. */
@@ -834,6 +961,11 @@ int main(void)
         cmocka_unit_test_setup(parts_of_unknown_reach, fresh),
         cmocka_unit_test_setup(hair_beside_a_large_face, fresh),
         cmocka_unit_test_setup(radius_off_long_numbers, fresh),
+        cmocka_unit_test_setup(numbers_unlike, fresh),
+        cmocka_unit_test_setup(unlike_and_hardly_apart, fresh),
+#if DIM == 3 && !VARIANT_FLOAT
+        cmocka_unit_test_setup(unlike_and_sheared, fresh),
+#endif
         cmocka_unit_test_setup(flattened_box_in_couples, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),
         cmocka_unit_test_setup(as_small_as_normal_numbers_get, fresh),

@@ -352,6 +352,39 @@ static void no_way_is_shorter_than_told(void **state)
     assert_true(overlaps > PAIRS && others > overlaps / 8 && told > overlaps / 4 && round_told > round * 8 / 10);
 }
 
+/* Ellipsoids next to balls, their middles all but shared: no way is lower than what their own ellipsoid says of all, by
+ * whichever dip it is told. */
+static void all_ways_are_as_high_as_told(void **state)
+{
+    long told = 0, aside = 0;
+    (void)state;
+    state_of_draws = 13;
+    for (int k = 0; k < 4 * PAIRS; k++) {
+        const double off = pow(10, any_between(-9, -6)), apart = off * pow(10, any_between(-2, 1));
+        draw_pair(kinds[0], kinds[0], apart);
+        for (int i = 0; i < 2; i++) {
+            const double radius = any_between(0.1, 1);
+            for (int j = 0; j < DIM; j++) {
+                numbers[i][j] = radius * (1 + any_between(0, off));
+            }
+        }
+        if (!find_dip(1)) {
+            continue;
+        }
+        const real over = 64 * (real)UNIT; /* what heights are charged for roundings, in a search */
+        const real all = height_of_all(&of_both, &least, room_of_ball(&of_both, &least), least.height - over, over);
+        if (!(all > 0)) {
+            continue;
+        }
+        const real lowest = lowest_dip_seen();
+        told++;
+        aside += lowest < least.height - 512 * (real)UNIT;
+        assert_true(all <= lowest);
+    }
+    printf("all ways: told of %ld, by another dip than the lowest of %ld\n", told, aside);
+    assert_true(told > PAIRS && aside > PAIRS / 8);
+}
+
 /* The gap of round bodies is found by one corner more than the first, as a rule. */
 static void a_gap_needs_no_walk(void **state)
 {
@@ -450,6 +483,7 @@ int main(void)
         cmocka_unit_test(edges_of_cones_are_bowed_enough),
 #endif
         cmocka_unit_test(no_way_is_shorter_than_told),
+        cmocka_unit_test(all_ways_are_as_high_as_told),
         cmocka_unit_test(a_gap_needs_no_walk),
 #if DIM == 3
         cmocka_unit_test(no_way_out),

@@ -71,6 +71,8 @@ static void begin(int tips, int exact)
     d.g = &g;
     d.a = &tips_themselves;
     d.b = &nothing;
+    d.known[0] = outline_of(d.a);
+    d.known[1] = outline_of(d.b);
     d.dropped.least = REAL_MAX;
     d.p = polytope_in(&room_of_all, (size_t)tips);
 }

@@ -263,10 +263,12 @@ static APART enum end tighten(search *q, const shape *a, const shape *b, const g
     if (!enclose(&f, a->radius, b->radius, ends)) return FAULT;
     hand_back(&f, q, weight);
     store(r->normal, q->normal);
+    if (f.off > 0) ends[0] = larger(ends[0], r->lower);
     if (f.over.sign != 0) r->lower = ends[0]; /* else that bounds no depth */
     q->met = f.over.sign == 0;
-    r->value = ends[1];
+    q->met_off = f.off * q->d.scale;
     r->upper = smaller(r->upper, ends[2]); /* which may know of an overlap */
+    r->value = f.off > 0 ? larger(smaller(ends[1], r->upper), r->lower) : ends[1];
     witness(r, q, weight, a, b, 2 * g->deep);
     return STILL;
 }
@@ -326,7 +328,7 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     const simplex searched = q->s;
     real found[DIM + 1];
     memcpy(found, weight, sizeof found);
-    if (q->met) *upper = smaller(*upper, 0);
+    if (q->met) *upper = smaller(*upper, q->met_off);
     if (o->workspace) d.p = polytope_in(o->workspace, tips_in(o->workspace_bytes));
     enum end end = o->workspace ? fathom(&d, upper, weight) : fathom_in_own_room(&d, upper, weight);
     if (end == FAULT || !(q->lower <= *upper)) return FAULT;
@@ -458,6 +460,7 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
     q->first_dip = &own;
     forget_first_dip(&own);
     q->met = 0;
+    q->met_off = 0;
     enum end end = run(q, a, b, o, g, walked, &upper, weight), further = FAULT;
     int still = end == STILL || end == INSIDE;
     /* the distance of known corners needs no probing, the exact finish tells more; overlap does */

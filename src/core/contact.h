@@ -373,16 +373,21 @@ static int prove(depth *d, real *upper)
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
 #define MOST_OPEN UNIT
 
-/* Whether a corner lies beyond the lowest facet by so much, times how far out that facet's corners are, that the
- * surface must have a dent there, as where a corner beyond another facet by less than rounding was not seen. Half of it
- * is what the bound from below is charged, by a height that is no more than these are long; and half what rounds. */
+/* So wide a bracket, times how far out the lowest facet's corners are, says that the surface may have a dent there, as
+ * where a corner beyond another facet by less than rounding was not seen. Half of it is what the bound from below is
+ * charged, by a height that is no more than these are long; and half what rounds. */
 #define DENT (4 * UNIT)
+
+/* Whether a corner lies beyond that facet by so much; or the bracket is so wide, and the cores hardly deeper, where the
+ * normals of all facets are rough for how thin the difference is. */
 static int is_dented(depth *d, real width)
 {
     const facet *f = d->floor;
     real far = 0, top = -REAL_MAX;
     for (int k = 0; k < DIM; k++) far = larger(length(d->p.tip[f->v[k]].w), far);
-    if (!(width > DENT * far) || !same(f->n, d->along)) return 0;
+    if (!(width > DENT * far)) return 0;
+    if (width > -d->q->lower / 4) return 1;
+    if (!same(f->n, d->along)) return 0;
     look_along(&d->sight, &d->q->d, f->n);
     for (int k = 0; k < DIM; k++) {
         const tip *t = &d->p.tip[f->v[k]];
@@ -487,6 +492,8 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.held = 0;
     own.first = d->q->first_dip;
     if (!g->exact && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) d->dips = &own;
+    d->known[0] = outline_of(d->a);
+    d->known[1] = outline_of(d->b);
     d->p.whole = &d->q->d;
     const int told = fathom_by_dip(d, d->dips, upper, 0);
     enum end end = told < 0 ? FAULT : told ? CLOSE : first_surface(d);

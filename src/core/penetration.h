@@ -33,6 +33,8 @@ typedef struct dips {
 typedef struct depth {
     search *q;
     const shape *a, *b;
+    outline known[2]; /* these, without rounding; */
+    real known_off;   /*   so far off them at most */
     const goal *g;
     polytope p;
     facet *floor;  /* the lowest facet, at the end */
@@ -339,7 +341,7 @@ static int inner_side(const depth *d, const facet *f)
     dyadics w[DIM];
     for (int i = 0; i < DIM; i++) {
         const tip *t = &d->p.tip[f->v[i]];
-        dyadics a = placed(d->a, t->x), b = placed(d->b, t->y);
+        dyadics a = placed(&d->known[0], t->x), b = placed(&d->known[1], t->y);
         w[i] = difference_of(&a, &b);
     }
 #if DIM == 2

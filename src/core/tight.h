@@ -6,8 +6,7 @@
 #ifndef GJK_CORE_TIGHT_H
 #define GJK_CORE_TIGHT_H
 
-#include "dyadic.h"
-#include "shapes.h"
+#include "outline.h"
 #include "touch.h"
 
 /* GJK_NO_EXACT leaves it out, and with it the stack that it takes. */
@@ -17,12 +16,9 @@
 #define EXACT 1
 #endif
 
-typedef struct dyadics {
-    dyadic c[DIM];
-} dyadics;
-
 typedef struct finish {
-    const shape *a, *b;
+    outline a, b;
+    real off;                   /* so far these are off the bodies at most */
     vec x[DIM + 1], y[DIM + 1]; /* corners of the sets, each in its own coordinates */
     dyadics w[DIM + 1];         /* of the difference */
     int n;
@@ -40,57 +36,6 @@ static int side(finish *f, const dyadic *x)
     return x->sign;
 }
 
-static dyadics difference_of(const dyadics *a, const dyadics *b)
-{
-    dyadics r;
-    for (int i = 0; i < DIM; i++) r.c[i] = plus(&a->c[i], &b->c[i], -1);
-    return r;
-}
-
-static dyadic inner(const dyadics *a, const dyadics *b)
-{
-    dyadic r = times(&a->c[0], &b->c[0]);
-    for (int i = 1; i < DIM; i++) {
-        dyadic t = times(&a->c[i], &b->c[i]);
-        r = plus(&r, &t, 1);
-    }
-    return r;
-}
-
-static dyadics no_way(void)
-{
-    dyadics r;
-    for (int i = 0; i < DIM; i++) r.c[i] = nought(0);
-    return r;
-}
-
-static void reverse(dyadics *a)
-{
-    for (int i = 0; i < DIM; i++) a->c[i].sign = -a->c[i].sign;
-}
-
-/* p q - r s */
-static dyadic minor(const dyadic *p, const dyadic *q, const dyadic *r, const dyadic *s)
-{
-    dyadic t = times(p, q), u = times(r, s);
-    return plus(&t, &u, -1);
-}
-
-#if DIM == 2
-/* a turned by a quarter, which is the normal of an edge. */
-static dyadics quarter(const dyadics *a) { return (dyadics){{opposite_of(&a->c[1]), a->c[0]}}; }
-#else
-static dyadics outer(const dyadics *a, const dyadics *b)
-{
-    dyadics r;
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        r.c[i] = minor(&a->c[j], &b->c[k], &a->c[k], &b->c[j]);
-    }
-    return r;
-}
-#endif
-
 /* The way along a facet's normal, to the side where the facet lies as seen from the origin, and its distance. */
 static void along_normal(finish *f, const dyadics *n, const dyadics *p)
 {
@@ -103,6 +48,53 @@ static void along_normal(finish *f, const dyadics *n, const dyadics *p)
     if (turn == 0) f->way = no_way();
     f->over.sign = turn != 0;
 }
+
+/* ---- numbers of any magnitude ---- */
+
+static twin root_of(twin a)
+{
+    real r = root(a.high);
+    twin square = product_of(r, r);
+    return sum_of(r, ((a.high - square.high) - square.low + a.low) / (2 * r));
+}
+
+static twin quotient_of(twin a, twin b)
+{
+    real q = a.high / b.high;
+    twin back = product_of(q, b.high);
+    return sum_of(q, ((a.high - back.high) - back.low + a.low - q * b.low) / b.high);
+}
+
+/* A twin and the power of two that goes with it: of any magnitude. */
+typedef struct wide {
+    twin t;
+    int exponent;
+} wide;
+
+static wide wide_of(const dyadic *a)
+{
+    wide r;
+    r.t = leading(a, &r.exponent);
+    return r;
+}
+
+static wide wide_root(wide a)
+{
+    if (a.exponent & 1) a = (wide){{2 * a.t.high, 2 * a.t.low}, a.exponent - 1};
+    return (wide){a.t.high > 0 ? root_of(a.t) : a.t, a.exponent / 2};
+}
+
+static wide wide_sum(wide a, wide b)
+{
+    if (a.t.high == 0) return b;
+    if (b.t.high == 0) return a;
+    int top = a.exponent > b.exponent ? a.exponent : b.exponent;
+    twin t = {raised(a.t.high, a.exponent - top), raised(a.t.low, a.exponent - top)};
+    gather(&t, (twin){raised(b.t.high, b.exponent - top), raised(b.t.low, b.exponent - top)});
+    return (wide){sum_of(t.high, t.low), top};
+}
+
+static wide wide_quotient(wide a, wide b) { return (wide){quotient_of(a.t, b.t), a.exponent - b.exponent}; }
 
 /* ---- the nearest point ---- */
 
@@ -147,18 +139,25 @@ static int within(finish *f, int i, int j, int k)
 }
 #endif
 
+/* Of the full simplex: square to the facet opposite corner i, on which p is. */
+static dyadics square_to_facet(const finish *f, int i, const dyadics **p)
+{
+    *p = &f->w[(i + 1) % (DIM + 1)];
+    const dyadics a = difference_of(&f->w[(i + 2) % (DIM + 1)], *p);
+#if DIM == 2
+    return quarter(&a);
+#else
+    const dyadics b = difference_of(&f->w[(i + 3) % (DIM + 1)], *p);
+    return outer(&a, &b);
+#endif
+}
+
 /* The full simplex: the origin is on the inner side of each facet, and how far from it is the weight of the corner
  * opposite. */
 static int inside(finish *f)
 {
     for (int i = 0; i <= DIM; i++) {
-        const dyadics *p = &f->w[(i + 1) % (DIM + 1)];
-        dyadics a = difference_of(&f->w[(i + 2) % (DIM + 1)], p), b = difference_of(&f->w[i], p);
-#if DIM == 2
-        dyadics n = quarter(&a);
-#else
-        dyadics c = difference_of(&f->w[(i + 3) % (DIM + 1)], p), n = outer(&a, &c);
-#endif
+        const dyadics *p, n = square_to_facet(f, i, &p), b = difference_of(&f->w[i], p);
         dyadic whole = inner(&n, &b);
         f->weight[i] = inner(&n, p);
         int outward = side(f, &f->weight[i]);
@@ -227,73 +226,27 @@ static int shrink(finish *f)
 
 /* ---- the farthest corner ---- */
 
-static dyadics placed(const shape *s, vec x)
-{
-    dyadics r;
-    for (int i = 0; i < DIM; i++) {
-        r.c[i] = dyadic_of(s->pose ? s->pose->p[i] : x.c[i]);
-        for (int j = 0; j < DIM && s->pose; j++) {
-            if (s->pose->m[DIM * i + j] == 0) continue;
-            dyadic m = dyadic_of(s->pose->m[DIM * i + j]), t = dyadic_of(x.c[j]);
-            t = times(&m, &t);
-            r.c[i] = plus(&r.c[i], &t, 1);
-        }
-    }
-    return r;
-}
-
-/* The way as the set sees it. */
-static dyadics pulled(const shape *s, const dyadics *way)
-{
-    dyadics r = *way;
-    for (int j = 0; j < DIM && s->pose; j++) {
-        r.c[j] = nought(0);
-        for (int i = 0; i < DIM; i++) {
-            if (s->pose->m[DIM * i + j] == 0) continue;
-            dyadic t = dyadic_of(s->pose->m[DIM * i + j]);
-            t = times(&t, &way->c[i]);
-            r.c[j] = plus(&r.c[j], &t, 1);
-        }
-    }
-    return r;
-}
-
-/* Rounded, and brought to size 1/16 .. 1/8. */
-static vec rough(const dyadics *d)
-{
-    vec r = axis(0, 0);
-    int e[DIM], top = 0, found = 0;
-    for (int i = 0; i < DIM; i++) {
-        r.c[i] = leading(&d->c[i], &e[i]).high * (real)d->c[i].sign;
-        if (d->c[i].sign == 0 || (found && e[i] <= top)) continue;
-        top = e[i];
-        found = 1;
-    }
-    for (int i = 0; i < DIM; i++) r.c[i] = raised(r.c[i], e[i] - top - 3);
-    return r;
-}
-
 /* From x to the corner of the set that lies farthest along the way, if any lies farther; and how much farther, with the
  * way's length as unit. Rounded heights tell which corners can be the farthest; among these numbers are exact. */
-static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
+static dyadic climb(finish *f, const outline *o, const dyadics *way, vec *x)
 {
-    dyadics g = pulled(s, way);
+    dyadics g = pulled(o, way);
     dyadic gain = nought(0);
     int moved = 0;
     for (int i = 0; i < DIM; i++) moved |= side(f, &g.c[i]) != 0;
     if (!moved || f->lost) return gain;
-    vec d = rough(&g), from = *x;
-    size_t n = count_corners(s);
+    vec d = rough(&g), from = point_in(o, *x);
+    size_t n = count_corners(o->s);
     real top = -REAL_MAX, far = 0;
     for (size_t i = 0; i < n; i++) {
-        vec p = nth_corner(s, i);
+        vec p = point_in(o, nth_corner(o->s, i));
         top = larger(dot(p, d), top);
         far = larger(peak(p), far);
     }
     top -= 16 * UNIT * (spread(d) * far) + 8 * TINY; /* d is off by a rounding, each height by DIM */
     for (size_t i = 0; i < n; i++) {
-        vec p = nth_corner(s, i);
-        if (dot(p, d) < top || same(p, *x)) continue;
+        const vec corner = nth_corner(o->s, i), p = point_in(o, corner);
+        if (dot(p, d) < top || same(p, from)) continue;
         dyadic rise = nought(0);
         for (int j = 0; j < DIM; j++) {
             if (p.c[j] == from.c[j]) continue;
@@ -304,59 +257,22 @@ static dyadic climb(finish *f, const shape *s, const dyadics *way, vec *x)
         dyadic more = plus(&rise, &gain, -1);
         if (side(f, &more) <= 0) continue;
         gain = rise;
-        *x = p;
+        *x = corner;
     }
     return gain;
 }
 
 /* ---- the search ---- */
 
-/* Adds sign times coordinate i of the corner x, placed, to terms without rounding. Returns how many there are then; 0
- * where products are too large or too small for that. */
-static int add_terms(const shape *s, vec x, int i, real sign, real *terms, int n)
-{
-    if (!s->pose) {
-        terms[n++] = sign * x.c[i];
-        return n;
-    }
-    terms[n++] = sign * s->pose->p[i];
-    for (int j = 0; j < DIM; j++) {
-        real m = sign * s->pose->m[DIM * i + j];
-        if (m == 0 || x.c[j] == 0) continue;
-        twin p = product_of(m, x.c[j]);
-        if (unruly(size(m)) || unruly(size(x.c[j])) || unruly(size(p.high))) return 0;
-        terms[n++] = p.high;
-        terms[n++] = p.low;
-    }
-    return n;
-}
-
-/* The corner of the difference, term by term; or, of numbers that are not plain, by what always works. */
-static dyadics corner_without_rounding(const finish *f, vec x, vec y)
-{
-    dyadics r;
-    for (int i = 0; i < DIM; i++) {
-        real terms[MOST_TERMS];
-        int n = add_terms(f->a, x, i, 1, terms, 0);
-        if (n > 0) n = add_terms(f->b, y, i, -1, terms, n);
-        if (n == 0) {
-            dyadics a = placed(f->a, x), b = placed(f->b, y);
-            return difference_of(&a, &b);
-        }
-        r.c[i] = total_of(terms, n);
-    }
-    return r;
-}
-
 static void take_in(finish *f, vec x, vec y)
 {
     f->x[f->n] = x;
     f->y[f->n] = y;
-    f->w[f->n++] = corner_without_rounding(f, x, y);
+    f->w[f->n++] = corner_without_rounding(&f->a, &f->b, x, y);
 }
 
 /* The simplex of q as it is holds the origin. */
-static void stay(finish *f, const search *q, const real weight[DIM + 1])
+static APART void stay(finish *f, const search *q, const real weight[DIM + 1])
 {
     f->n = q->s.n;
     for (int i = 0; i < f->n; i++) {
@@ -370,25 +286,33 @@ static void stay(finish *f, const search *q, const real weight[DIM + 1])
     f->way = no_way();
 }
 
-/* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; OPEN: max_steps are used up; FAULT:
- * numbers were lost. */
-static enum end conclude(finish *f, search *q, const shape *a, const shape *b, int max_steps)
+/* Between the bodies themselves, and nothing is known yet. */
+static void start_finish(finish *f, const shape *a, const shape *b)
 {
-    real weight[DIM + 1];
-    f->a = a;
-    f->b = b;
+    f->a = outline_of(a);
+    f->b = outline_of(b);
+    f->off = 0;
     f->n = f->lost = 0;
-    if (q->s.n == 0) return FAULT; /* there is nothing to start from */
-    if (holds_origin(q, a, b, weight)) {
-        stay(f, q, weight);
-        return STILL;
-    }
+}
+
+/* Leaves out what is faint in a frame of that size. 0: that has been left out, or there is nothing. */
+static int leave_out(outline *a, outline *b, real frame, real *off)
+{
+    if (*off > 0) return 0;
+    *off = leave_out_faint(a, frame) + leave_out_faint(b, frame);
+    return *off > 0;
+}
+
+/* From the simplex of q on, until no corner is nearer. */
+static APART enum end climb_down(finish *f, search *q, int max_steps)
+{
+    f->n = f->lost = 0;
     for (int i = 0; i < q->s.n; i++) take_in(f, corner(&q->s, i)->x, corner(&q->s, i)->y);
     while (shrink(f)) {
         vec x = f->x[0], y = f->y[0];
         dyadics back = f->way;
         reverse(&back);
-        dyadic up = climb(f, b, &f->way, &y), down = climb(f, a, &back, &x), gain = plus(&up, &down, 1);
+        dyadic up = climb(f, &f->b, &f->way, &y), down = climb(f, &f->a, &back, &x), gain = plus(&up, &down, 1);
         if (side(f, &gain) <= 0) break;
         if (q->steps >= max_steps) return f->lost ? FAULT : OPEN;
         q->steps++;
@@ -398,52 +322,37 @@ static enum end conclude(finish *f, search *q, const shape *a, const shape *b, i
     return f->lost ? FAULT : STILL;
 }
 
-/* ---- the answer ---- */
-
-static twin root_of(twin a)
+/* A ball of that radius around the origin is in the full simplex. */
+static APART int holds_ball(const finish *f, real radius)
 {
-    real r = root(a.high);
-    twin square = product_of(r, r);
-    return sum_of(r, ((a.high - square.high) - square.low + a.low) / (2 * r));
-}
-
-static twin quotient_of(twin a, twin b)
-{
-    real q = a.high / b.high;
-    twin back = product_of(q, b.high);
-    return sum_of(q, ((a.high - back.high) - back.low + a.low - q * b.low) / b.high);
-}
-
-/* A twin and the power of two that goes with it: of any magnitude. */
-typedef struct wide {
-    twin t;
-    int exponent;
-} wide;
-
-static wide wide_of(const dyadic *a)
-{
-    wide r;
-    r.t = leading(a, &r.exponent);
+    int r = f->n > DIM;
+    for (int i = 0; i <= DIM && r; i++) {
+        const dyadics *p, n = square_to_facet(f, i, &p);
+        const dyadic over = inner(&n, p), under = inner(&n, &n);
+        const wide h = wide_quotient(wide_of(&over), wide_root(wide_of(&under)));
+        r = raised(h.t.high, h.exponent) > 2 * radius;
+    }
     return r;
 }
 
-static wide wide_root(wide a)
+/* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; OPEN: max_steps are used up; FAULT:
+ * numbers were lost. */
+static enum end conclude(finish *f, search *q, const shape *a, const shape *b, int max_steps)
 {
-    if (a.exponent & 1) a = (wide){{2 * a.t.high, 2 * a.t.low}, a.exponent - 1};
-    return (wide){a.t.high > 0 ? root_of(a.t) : a.t, a.exponent / 2};
+    real weight[DIM + 1];
+    start_finish(f, a, b);
+    if (q->s.n == 0) return FAULT; /* there is nothing to start from */
+    if (holds_origin(q, a, b, weight)) {
+        stay(f, q, weight);
+        return STILL;
+    }
+    enum end end = climb_down(f, q, max_steps);
+    if (end == FAULT && leave_out(&f->a, &f->b, q->d.unscale, &f->off)) end = climb_down(f, q, max_steps);
+    if (f->off > 0 && end == STILL && holds_ball(f, f->off)) f->off = 0; /* as that these meet is true of the bodies */
+    return end;
 }
 
-static wide wide_sum(wide a, wide b)
-{
-    if (a.t.high == 0) return b;
-    if (b.t.high == 0) return a;
-    int top = a.exponent > b.exponent ? a.exponent : b.exponent;
-    twin t = {raised(a.t.high, a.exponent - top), raised(a.t.low, a.exponent - top)};
-    gather(&t, (twin){raised(b.t.high, b.exponent - top), raised(b.t.low, b.exponent - top)});
-    return (wide){sum_of(t.high, t.low), top};
-}
-
-static wide wide_quotient(wide a, wide b) { return (wide){quotient_of(a.t, b.t), a.exponent - b.exponent}; }
+/* ---- the answer ---- */
 
 /* The cores' distance, good to 32 UNIT^2 of itself. */
 static wide core_distance(const finish *f)
@@ -452,11 +361,11 @@ static wide core_distance(const finish *f)
     return f->squared ? wide_root(wide_quotient(over, under)) : wide_quotient(over, wide_root(under));
 }
 
-/* A length, its sign apart, and by how much of itself it may be off. */
+/* A length, its sign apart; by how much of itself it may be off, and by how much besides. */
 typedef struct estimate {
     wide size;
     int sign;
-    real off;
+    real off, more;
 } estimate;
 
 /* What formulas of a few operations on twins are good to. */
@@ -466,7 +375,7 @@ typedef struct estimate {
 static estimate difference_in_twins(wide d, wide r)
 {
     wide sum = wide_sum(d, r), gap = wide_sum(d, (wide){{-r.t.high, -r.t.low}, r.exponent});
-    estimate e = {gap, gap.t.high < 0 ? -1 : 1, REAL_MAX};
+    estimate e = {gap, gap.t.high < 0 ? -1 : 1, REAL_MAX, 0};
     real whole = raised(sum.t.high, sum.exponent - gap.exponent);
     if (e.sign < 0) e.size.t = (twin){-gap.t.high, -gap.t.low};
     if (e.size.t.high > 0) e.off = FORMULA_OFF * (whole / e.size.t.high);
@@ -493,12 +402,12 @@ static estimate separation(const finish *f, real radius_a, real radius_b)
 {
     dyadic r = sum_of_radii(radius_a, radius_b);
     wide d = core_distance(f);
-    if (r.sign == 0) return (estimate){d, f->over.sign, FORMULA_OFF};
+    if (r.sign == 0) return (estimate){d, f->over.sign, FORMULA_OFF, 0};
     dyadic squares = squares_between(f, &r);
     if (squares.lost) return difference_in_twins(d, wide_of(&r));
     wide under = wide_of(&f->under), sum = wide_sum(d, wide_of(&r));
     under = (wide){product_of_twins(under.t, sum.t), under.exponent + sum.exponent};
-    return (estimate){wide_quotient(wide_of(&squares), under), squares.sign, FORMULA_OFF};
+    return (estimate){wide_quotient(wide_of(&squares), under), squares.sign, FORMULA_OFF, 0};
 }
 
 /* Its bracket, each end the nearest number its way, or the one next to that; the value between. 0: it is not known to
@@ -507,7 +416,7 @@ static int round_off(estimate e, real ends[3])
 {
     const wide s = e.size;
     if (!(e.off <= UNIT / 4)) return 0;
-    real error = e.off * s.t.high;
+    const real error = e.off * s.t.high + raised(e.more, -s.exponent);
     real low = below(s.t.high, s.t.low - error, s.exponent), high = -below(-s.t.high, -s.t.low - error, s.exponent);
     ends[0] = e.sign < 0 ? -high : low;
     ends[1] = raised(s.t.high, s.exponent) * (real)e.sign;
@@ -525,10 +434,12 @@ static int is_a_number(const finish *f, real radius_a, real radius_b)
 }
 
 /* The bracket of the distance less the radii. 0: that is not to be told. */
-static int enclose(const finish *f, real radius_a, real radius_b, real ends[3])
+static APART int enclose(const finish *f, real radius_a, real radius_b, real ends[3])
 {
-    if (!round_off(separation(f, radius_a, radius_b), ends)) return 0;
-    if (ends[0] == 0 && ends[2] > 0 && is_a_number(f, radius_a, radius_b)) ends[0] = TINY;
+    estimate e = separation(f, radius_a, radius_b);
+    e.more = f->off;
+    if (!round_off(e, ends)) return 0;
+    if (ends[0] == 0 && ends[2] > 0 && f->off == 0 && is_a_number(f, radius_a, radius_b)) ends[0] = TINY;
     return 1;
 }
 

@@ -9,8 +9,9 @@
 
 static void take_tips(finish *f, const depth *d, const int16_t *v, int n)
 {
-    f->a = d->a;
-    f->b = d->b;
+    f->a = d->known[0];
+    f->b = d->known[1];
+    f->off = d->known_off;
     f->n = f->lost = f->squared = 0;
     for (int i = 0; i < n; i++) take_in(f, d->p.tip[v[i]].x, d->p.tip[v[i]].y);
 }
@@ -39,7 +40,8 @@ static int exact_side(const void *of, const facet *of_it, const tip *t)
     const depth *d = of;
     finish f;
     take_plane(&f, d, of_it);
-    dyadics a = placed(d->a, t->x), b = placed(d->b, t->y), w = difference_of(&a, &b), e = difference_of(&w, &f.w[0]);
+    dyadics a = placed(&d->known[0], t->x), b = placed(&d->known[1], t->y), w = difference_of(&a, &b),
+            e = difference_of(&w, &f.w[0]);
     dyadic r = inner(&f.way, &e);
     return r.sign;
 }
@@ -52,7 +54,7 @@ static int take_step(finish *f, depth *d, tip *t)
     reverse(&back);
     d->q->steps++;
     d->q->d.calls += 2;
-    dyadic up = climb(f, d->a, &f->way, &c.x), down = climb(f, d->b, &back, &c.y), gain = plus(&up, &down, 1);
+    dyadic up = climb(f, &f->a, &f->way, &c.x), down = climb(f, &f->b, &back, &c.y), gain = plus(&up, &down, 1);
     c.w = corner_of(&d->q->d, c.x, c.y);
     *t = tip_of(&c);
     return side(f, &gain) > 0;
@@ -64,14 +66,14 @@ static int enclose_depth(finish *f, const depth *d, real ends[3])
 {
     dyadic a = dyadic_of(d->a->radius), b = dyadic_of(d->b->radius), r = plus(&a, &b, 1);
     wide sum = wide_sum(core_distance(f), wide_of(&r));
-    return !f->lost && round_off((estimate){sum, sum.t.high > 0 ? -1 : 0, FORMULA_OFF}, ends);
+    return !f->lost && round_off((estimate){sum, sum.t.high > 0 ? -1 : 0, FORMULA_OFF, f->off}, ends);
 }
 
 /* Above the height of the plane, in the frame. */
 static real height_above(const finish *f, const depth *d)
 {
     wide h = core_distance(f);
-    return raised(h.t.high, h.exponent) * d->q->d.scale * (1 + 64 * UNIT) + TINY;
+    return (raised(h.t.high, h.exponent) * (1 + 64 * UNIT) + f->off) * d->q->d.scale + TINY;
 }
 
 /* The lowest of the facets, by their planes, or the first that has the origin beyond it; f, ends: its own. One that is
@@ -175,30 +177,40 @@ static void settle_on(depth *d, finish *f, enum end grown, enum end *end)
     d->normal = mul(d->normal, 1 / length(d->normal));
 }
 
-/* Settles the depth from the polytope as it is; from the tips, where these are flat to rounding. Returns how the growth
- * ended. */
+/* From that tip of the polytope on, of which nothing else is left then. */
+static void begin_anew(depth *d, int from)
+{
+    polytope *p = &d->p;
+    p->tip[0] = p->tip[from];
+    p->facets = 0;
+    d->dropped = (tally){.least = REAL_MAX};
+    d->floor = NULL;
+}
+
+/* Settles the depth from the polytope as it is, or from the tips, where these are flat to rounding; where numbers are
+ * lost, that of bodies next to these. Returns how the growth ended. */
 static APART enum end settle_depth(depth *d, enum end *end)
 {
     finish f;
-    enum end grown = CLOSE;
     d->p.without_rounding = 1;
     d->p.side = exact_side;
     d->p.of = d;
-    if (d->p.facets == 0) grown = span_out(d, &f);
-    if (grown == CLOSE) grown = grow_on(d, &f, d->ends);
+    enum end grown;
+    for (;;) {
+        grown = d->p.facets == 0 ? span_out(d, &f) : CLOSE;
+        if (grown == CLOSE) grown = grow_on(d, &f, d->ends);
+        if (grown != FAULT || !f.lost) break;
+        if (!leave_out(&d->known[0], &d->known[1], d->q->d.unscale, &d->known_off)) break;
+        begin_anew(d, 0);
+    }
     settle_on(d, &f, grown, end);
     return grown;
 }
 
-/* The same from a corner on, where rounding has spoiled the polytope or filled the workspace with what it left. Of that
- * nothing is left then. */
+/* The same from a corner on, where rounding has spoiled the polytope or filled the workspace with what it left. */
 static APART enum end settle_anew(depth *d, enum end *end)
 {
-    polytope *p = &d->p;
-    p->tip[0] = p->tip[d->floor->v[0]];
-    p->facets = 0;
-    d->dropped = (tally){.least = REAL_MAX};
-    d->floor = NULL;
+    begin_anew(d, d->floor->v[0]);
     return settle_depth(d, end);
 }
 
