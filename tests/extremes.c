@@ -441,6 +441,29 @@ static void unlike_and_sheared(void **state)
         assert_true(r.upper == 0);
     }
 }
+
+/* A needle through the origin, as long as numbers go, that is next to no thicker than 0: no unit of the distance, which
+ * is 0, holds what is left out of it. */
+static void unlike_and_huge(void **state)
+{
+    static const double half[3] = {2.2727019708697341e-322, 2.2727019708697341e-322, 16};
+    V(options) o = default_options();
+    V(result) r;
+    (void)state;
+    a.kind = BOX;
+    for (int i = 0; i < 3; i++) {
+        a.half[i] = half[i];
+        a.pose.m[4 * i] = 0;
+    }
+    a.pose.m[3] = 25;
+    a.pose.m[4] = 4.5454039417394682e-322;
+    a.pose.m[5] = 5.0472341432901928e+305;
+    a.pose.m[6] = 1.1049932511608379e+301;
+    bind(&a);
+    o.tight = 1;
+    assert_int_equal(V(distance)(&a.shape, &b.shape, &o, &r), GJK_OK);
+    assert_true(r.lower == 0 && r.upper <= 1e200);
+}
 #endif
 
 /* A box that its map flattens to a line but for rounding, with b on it or next to it, and one or both of them a couple,
@@ -965,6 +988,7 @@ int main(void)
         cmocka_unit_test_setup(unlike_and_hardly_apart, fresh),
 #if DIM == 3 && !VARIANT_FLOAT
         cmocka_unit_test_setup(unlike_and_sheared, fresh),
+        cmocka_unit_test_setup(unlike_and_huge, fresh),
 #endif
         cmocka_unit_test_setup(flattened_box_in_couples, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),

@@ -287,9 +287,6 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     return taken > 0 && goes_with_bound(q, other) ? other : NULL;
 }
 
-/* The bracket is as narrow as rounding allows, whatever the radii. */
-static int is_tight(const search *q, real upper) { return upper - q->lower <= 4 * q->d.doubt + 2 * q->d.slack; }
-
 /* The dip near the one known best, or on the other side, that may be the least everywhere. 0: there is none. */
 static int find_dip_of_all(const depth *d, bent *b)
 {
@@ -301,12 +298,6 @@ static int find_dip_of_all(const depth *d, bent *b)
     }
     return are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) &&
            (known_room(of, b) > 0 || is_centred(of, b->height));
-}
-
-/* What the dip proves of all ways is as narrow as facets would get, or as asked, or as is to be had. */
-static int is_enough(const depth *d, const dip *f, int last)
-{
-    return last || f->far == 0 || is_tight(d->q, -f->floor) || is_as_asked_by(d, f, -f->floor);
 }
 
 /* The depth by a dip alone, before there is a surface; or at last, where none has come to an end. 0: none tells it. -1:
@@ -330,7 +321,7 @@ static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
             f->far = 0;
         }
     }
-    if (taken && f->everywhere && bounds_as_well(q, f) && is_enough(d, f, last)) {
+    if (taken && f->everywhere && bounds_as_well(q, f)) {
         all->best = f;
         if (!last) all->n = 1;
         return 1;

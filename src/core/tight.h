@@ -414,9 +414,13 @@ static estimate separation(const finish *f, real radius_a, real radius_b)
  * all digits, or too large to be told. */
 static int round_off(estimate e, real ends[3])
 {
-    const wide s = e.size;
+    wide s = e.size;
     if (!(e.off <= UNIT / 4)) return 0;
-    const real error = e.off * s.t.high + raised(e.more, -s.exponent);
+    real error = e.off * s.t.high + raised(e.more, -s.exponent);
+    if (error > s.t.high / UNIT) { /* it is as good as none then */
+        s = (wide){{0, 0}, 0};
+        error = 2 * e.more;
+    }
     real low = below(s.t.high, s.t.low - error, s.exponent), high = -below(-s.t.high, -s.t.low - error, s.exponent);
     ends[0] = e.sign < 0 ? -high : low;
     ends[1] = raised(s.t.high, s.exponent) * (real)e.sign;
