@@ -217,3 +217,16 @@ def test_poses_that_need_no_care_stay_simple():
     assert posed(box, None) == box
     assert posed(box, SHIFT) == box.at(SHIFT)
     assert posed(box.at(SHIFT), None) == box.at(SHIFT)
+
+
+@pytest.mark.parametrize("dim", [np.int64(2), np.uint8(2), np.array(2)])
+def test_dim_is_any_integer(dim):
+    ball = gjk.Ball(1, dim=dim)
+    assert ball.dim == 2 and type(ball.dim) is int
+    assert gjk.distance(ball, gjk.Sphere(1, dim=dim, pose=(3, 0))).value == 1
+
+
+@pytest.mark.parametrize("dim", [np.float64(2), np.bool_(True), True, np.array([2, 2]), "2", None, 4])
+def test_dim_is_2_or_3(dim):
+    with pytest.raises(gjk.BadArgument, match="the integer 2 or 3"):
+        gjk.Ball(1, dim=dim)

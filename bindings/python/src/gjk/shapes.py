@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from operator import index
 from typing import Any, Callable, ClassVar, TypeVar
 
 from ._gjk import ffi
@@ -35,6 +36,17 @@ S = TypeVar("S", bound="Shape")
 _DEEPEST = 100
 
 
+def _dimensions(dim: Any, name: str) -> int:
+    """2 or 3, by any type of integers."""
+    try:
+        whole = 0 if isinstance(dim, bool) else index(dim)
+    except TypeError:
+        whole = 0
+    if whole not in (2, 3):
+        raise BadArgument(f"{name}: {dim!r} dimensions, where the integer 2 or 3 is expected")
+    return whole
+
+
 class Shape:
     """A convex set: { m x + p : x in the set of its class }, grown by a ball. Immutable.
 
@@ -58,8 +70,7 @@ class Shape:
     radius: float
 
     def __init__(self, dim: int, pose: PoseLike | None, radius: float, **sizes: Any) -> None:
-        if not isinstance(dim, int) or isinstance(dim, bool) or dim not in (2, 3):
-            raise BadArgument(f"{type(self).__name__}: {dim!r} dimensions, where the integer 2 or 3 is expected")
+        dim = _dimensions(dim, type(self).__name__)
         for name, value in sizes.items():
             object.__setattr__(self, name, value)
         object.__setattr__(self, "dim", dim)
