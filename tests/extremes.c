@@ -339,7 +339,7 @@ static void draw_unlike(body *k, draws *d, double size)
 
 static void numbers_unlike(void **state)
 {
-    const int most = VARIANT_FLOAT ? 40 : 200;
+    const int most = VARIANT_FLOAT ? 40 : 900;
     long apart = 0, meet = 0;
     double widest = 0;
     (void)state;
@@ -463,6 +463,38 @@ static void unlike_and_huge(void **state)
     o.tight = 1;
     assert_int_equal(V(distance)(&a.shape, &b.shape, &o, &r), GJK_OK);
     assert_true(r.lower == 0 && r.upper <= 1e200);
+}
+
+/* A point beside a triangle, in the plane of it, by less than what is left out of their numbers: no depth of 0 is said
+ * to be theirs. */
+static void unlike_and_hardly_beside(void **state)
+{
+    const double far = 0x1p450, least = 0x1p-1074;
+    (void)state;
+    for (int k = 0; k < 60; k++) {
+        const double gap = ldexp(1, k);
+        fresh(NULL);
+        a.kind = b.kind = POINTS;
+        a.count = 3;
+        a.v[0][0] = -far;
+        a.v[0][1] = 3 * least;
+        a.v[1][0] = far;
+        a.v[1][1] = -least;
+        a.v[2][1] = -far;
+        b.count = 1;
+        b.v[0][0] = least;
+        b.v[0][1] = gap;
+        bind(&a);
+        bind(&b);
+        a.shape.pose = b.shape.pose = NULL;
+        for (uint32_t tight = 0; tight < 2; tight++) {
+            V(options) o = default_options();
+            V(result) r;
+            o.tight = tight;
+            assert_true(V(penetration)(&a.shape, &b.shape, &o, &r) >= 0);
+            assert_true(r.lower <= gap * (1 + 0x1p-50) && r.upper >= gap * (1 - 0x1p-50));
+        }
+    }
 }
 #endif
 
@@ -989,6 +1021,7 @@ int main(void)
 #if DIM == 3 && !VARIANT_FLOAT
         cmocka_unit_test_setup(unlike_and_sheared, fresh),
         cmocka_unit_test_setup(unlike_and_huge, fresh),
+        cmocka_unit_test_setup(unlike_and_hardly_beside, fresh),
 #endif
         cmocka_unit_test_setup(flattened_box_in_couples, fresh),
         cmocka_unit_test_setup(bodies_posed_into_subnormals, fresh),

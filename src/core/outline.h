@@ -82,14 +82,13 @@ static outline outline_of(const shape *s) { return (outline){s, 0, 0, 0}; }
 /* Leaves out what is faint in a frame of that size. Returns how far the body is off what it was, at most. */
 static real leave_out_faint(outline *o, real frame)
 {
-    const real least = FAINT * frame;
     real far = TINY, norm = o->s->pose ? TINY : 1;
     for (size_t i = 0; i < count_corners(o->s); i++) far = larger(peak(nth_corner(o->s, i)), far);
     for (int i = 0; i < DIM * DIM && o->s->pose; i++) norm = larger(size(o->s->pose->m[i]), norm);
-    o->point = least / norm;
-    o->map = least / far;
-    o->place = least;
-    return 32 * least;
+    o->point = FAINT * (frame / norm);
+    o->map = FAINT * (frame / far);
+    o->place = FAINT * frame;
+    return FAINT > 0 ? 32 * (o->place + TINY) : 0;
 }
 
 static inline real unless_below(real x, real least) { return size(x) < least ? 0 : x; }

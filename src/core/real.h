@@ -184,7 +184,8 @@ static real lower_neighbour(real x)
     return x;
 }
 
-/* A number below (x + rest) 2^e, the highest or the one under it; x is of size 1, the rest below a rounding of it. */
+/* A number below (x + rest) 2^e: the highest or the one under it, where x is of size 1 and the rest below a rounding.
+ */
 static real below(real x, real rest, int e)
 {
     real r = x;

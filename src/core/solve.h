@@ -251,9 +251,9 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     bracket(r, &q->d, q->lower, *upper, a, b);
     r->value = middle(q, g, d.near);
     if (d.settled) {
-        r->lower = d.ends[0];
+        r->lower = d.known_off > 0 ? larger(d.ends[0], r->lower) : d.ends[0];
         r->value = d.ends[1];
-        r->upper = d.ends[2];
+        r->upper = d.known_off > 0 ? smaller(d.ends[2], r->upper) : d.ends[2];
     }
     store(r->normal, q->normal);
     if (r->lower > 0) { /* apart after all: the pair that upper is of */

@@ -166,13 +166,16 @@ static void settle_on(depth *d, finish *f, enum end grown, enum end *end)
 {
     d->settled = grown == STILL;
     if (grown != FAULT) *end = grown;
-    if (d->settled && d->p.facets == 0) {
+    if (!d->settled) return;
+    if (d->p.facets == 0) {
         f->over = nought(0);
         f->under = dyadic_of(1);
+    }
+    d->flush = f->over.sign == 0;
+    if (d->flush) { /* that they meet may be known of others alone */
+        f->off = d->known_off = larger(d->known_off, d->q->met_off * d->q->d.unscale);
         d->settled = enclose_depth(f, d, d->ends);
     }
-    if (!d->settled) return;
-    d->flush = f->over.sign == 0;
     d->normal = rough(&f->way);
     d->normal = mul(d->normal, 1 / length(d->normal));
 }
