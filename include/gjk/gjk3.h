@@ -98,9 +98,8 @@ typedef struct gjk3_result {
  * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
  * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
  * of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 27, but 52 of two boxes and of
- * hulls of up to 64 points, unless it is built with GJK_ALONE. Of a pair whose numbers are so unlike that they span
- * more, as 1e8 and 5e-324 do in a product of three, what is below 1e-115 of its size is left out, and the bracket as
- * wide as that. A library built with GJK_NO_EXACT does without. */
+ * hulls of up to 64 points, unless it is built with GJK_ALONE. Of a pair that spans more, what is below 1e-115 of its
+ * size is left out, and the bracket is wider by that. A library built with GJK_NO_EXACT does without. */
 GJK_API int gjk3_distance(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus

@@ -369,9 +369,9 @@ static int prove(depth *d, real *upper)
  * charged, by a height that is no more than these are long; and half what rounds. */
 #define DENT (4 * UNIT)
 
-/* Whether a corner lies beyond that facet by so much; or the bracket is so wide, and the cores hardly deeper, where the
- * normals of all facets are rough for how thin the difference is. */
-static int is_dented(depth *d, real width)
+/* Whether rounding has spoilt the surface: a corner lies beyond that facet by so much; or the bracket is so wide and
+ * the cores hardly deeper, as where the difference is so thin that the normals of all facets are rough for it. */
+static int is_spoilt(depth *d, real width)
 {
     const facet *f = d->floor;
     real far = 0, top = -REAL_MAX;
@@ -392,7 +392,7 @@ static int is_dented(depth *d, real width)
 static int is_open(depth *d, int proven, real upper)
 {
     const real width = upper - d->q->lower;
-    return proven ? d->floor && is_dented(d, width) : width > MOST_OPEN;
+    return proven ? d->floor && is_spoilt(d, width) : width > MOST_OPEN;
 }
 
 /* What both bounds of a facet are charged for roundings at most, but for the doubt and the slack, in a frame where
