@@ -157,6 +157,52 @@ static void radii(void **state)
     expect_truth(0);
 }
 
+/* A body of that kind, of size 1 about. */
+static void some_body(body *k, enum kind kind)
+{
+    start_body(k, kind);
+    k->radius = k->half_length = 1;
+    k->count = 1 << DIM;
+    for (int i = 0; i < DIM; i++) {
+        k->half[i] = 1;
+        for (int n = 0; n < 1 << DIM; n++) {
+            k->v[n][i] = (real)(n >> i & 1 ? 1 : -1);
+        }
+    }
+}
+
+/* Neither is a radius below 0, if the other's makes up for it, whether they are apart or overlap, and whatever a cache
+ * has kept of the same bodies without. */
+static void radii_that_cancel(void **state)
+{
+    static const enum kind kinds[] = {POINTS, BOX, ELLIPSOID, SEGMENT, ORIGIN};
+    static const real places[] = {4, (real)0.25};
+    (void)state;
+    for (int k = 0; k < 5 * 5 * 2 * QUERIES; k++) {
+        V(result) r;
+        V(cache) cache;
+        V(options) o = default_options();
+        memset(&cache, 0, sizeof cache);
+        o.cache = &cache;
+        some_body(&a, kinds[k % 5]);
+        some_body(&b, kinds[k / 5 % 5]);
+        b.pose.p[0] = places[k / 25 % 2];
+        bind(&a);
+        bind(&b);
+        assert_true(queries[k / 50](&a.shape, &b.shape, &o, &r) >= 0);
+        const V(cache) kept = cache;
+        for (int below = 0; below < 2; below++) {
+            a.shape.radius = below ? 1 : -1;
+            b.shape.radius = below ? -1 : 1;
+            expect(GJK_BAD_ARGUMENT);
+            for (int q = 0; q < QUERIES; q++) {
+                cache = kept;
+                expect_query(queries[q], &a.shape, &b.shape, &o, GJK_BAD_ARGUMENT);
+            }
+        }
+    }
+}
+
 static void sizes_of(enum kind kind, real *size, real good)
 {
     start_body(&a, kind);
@@ -1047,6 +1093,7 @@ int main(void)
         cmocka_unit_test_setup(ready_made_without_data, fresh),
         cmocka_unit_test_setup(poses_not_finite, fresh),
         cmocka_unit_test_setup(radii, fresh),
+        cmocka_unit_test_setup(radii_that_cancel, fresh),
         cmocka_unit_test_setup(sizes, fresh),
         cmocka_unit_test_setup(sizes_of_0, fresh),
         cmocka_unit_test_setup(points_not_finite, fresh),

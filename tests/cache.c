@@ -325,7 +325,7 @@ static void of_a_sheet_mapped_far(void **state)
 {
     long warm_starts = 0;
     (void)state;
-    for (uint64_t i = 0; i < 20000; i++) {
+    for (uint64_t i = 0; i < 3000; i++) {
         draws d = draws_from(6, 12, i);
         const int flat = below(&d, DIM);
         const double far = ldexp(1, sizeof(real) > 4 ? 200 + below(&d, 300) : 30 + below(&d, 30));

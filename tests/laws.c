@@ -382,6 +382,29 @@ static void check_warm(pair *p, draws *d)
     must_agree(p, &x, &y, 0);
 }
 
+/* Whether they meet is told the same whatever tolerances and cutoff are asked for, cold and warm. */
+static void check_tolerances(pair *p, draws *d)
+{
+    answer x = ask(&p->a, &p->b), y = x;
+    V(options) o = default_options();
+    V(cache) plain, cache;
+    o.abs_tol = (real)(below(d, 2) ? magnitude(d, -9, 1) : 0);
+    o.rel_tol = (real)(below(d, 2) ? magnitude(d, -9, 0) : 0);
+    o.cutoff = (real)(below(d, 2) ? magnitude(d, -3, 1) : 0);
+    assert_true(V(intersect)(&p->a.shape, &p->b.shape, &o, &y.intersect) >= 0);
+    must_be_same(p, &x, &y);
+    memset(&plain, 0, sizeof plain);
+    cache = plain;
+    for (int round = 0; round < 2; round++) {
+        V(options) without = default_options();
+        without.cache = &plain;
+        o.cache = &cache;
+        assert_true(V(intersect)(&p->a.shape, &p->b.shape, &without, &x.intersect) >= 0);
+        assert_true(V(intersect)(&p->a.shape, &p->b.shape, &o, &y.intersect) >= 0);
+        must_be_same(p, &x, &y);
+    }
+}
+
 static void must_not_cost_more(const pair *p, const V(result) * r, int32_t steps)
 {
     if (r->steps > steps) {
@@ -573,6 +596,7 @@ LAW(radius)
 LAW(unit_of_length)
 LAW(extreme_unit)
 LAW(warm)
+LAW(tolerances)
 LAW(effort)
 
 int main(void)
@@ -589,6 +613,7 @@ int main(void)
         cmocka_unit_test(radius),
         cmocka_unit_test(unit_of_length),
         cmocka_unit_test(warm),
+        cmocka_unit_test(tolerances),
         cmocka_unit_test(extreme_unit),
         cmocka_unit_test(effort),
         cmocka_unit_test(normal_near_contact),

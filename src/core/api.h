@@ -108,6 +108,21 @@ static int distance_status(const result *r, const options *o, enum end end, cons
     return !tolerant && tight_enough(r, &q->d, radius, level) ? GJK_OK : GJK_FLOOR;
 }
 
+/* What is asked where the bracket is to be narrow. */
+static goal goal_of(const search *q, const shape *a, const shape *b, const options *o)
+{
+    goal g = {.beyond = REAL_MAX,
+              .within = -1,
+              .radius = a->radius + b->radius,
+              .abs_tol = o->abs_tol,
+              .rel_tol = o->rel_tol,
+              .early = o->abs_tol > 0 || o->rel_tol > 0,
+              .exact = are_exact(q, a, b, o),
+              .max_steps = (int)o->max_steps};
+    if (o->cutoff > 0) g.beyond = (o->cutoff + g.radius) * (1 + 16 * UNIT);
+    return g;
+}
+
 /* The whole answer, of any bodies, whatever is asked. */
 static WHOLE int answer_distance(search *q, const shape *a, const shape *b, const options *given, result *out)
 {
@@ -117,17 +132,11 @@ static WHOLE int answer_distance(search *q, const shape *a, const shape *b, cons
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
     q->lent = UNTRIED;
     list_both(q, a, b, o);
-    real radius = a->radius + b->radius;
-    goal g = {.beyond = REAL_MAX,
-              .within = -1,
-              .radius = radius,
-              .abs_tol = o->abs_tol,
-              .rel_tol = o->rel_tol,
-              .exact = are_exact(q, a, b, o),
-              .max_steps = (int)o->max_steps};
-    if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
-    if (radius > 0) g.within = radius * (1 - 16 * UNIT);
-    g.early = radius > 0 || o->abs_tol > 0 || o->rel_tol > 0;
+    goal g = goal_of(q, a, b, o);
+    if (g.radius > 0) {
+        g.within = g.radius * (1 - 16 * UNIT);
+        g.early = 1;
+    }
 
     enum end end;
     int bad = reply_to(q, a, b, o, &g, &end, &r);
@@ -135,7 +144,7 @@ static WHOLE int answer_distance(search *q, const shape *a, const shape *b, cons
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, o, end, q, radius, 0);
+    r.status = distance_status(&r, o, end, q, g.radius, 0);
     *out = r;
     return r.status;
 }
@@ -169,7 +178,7 @@ static enum glanced recall_and_remember(search *q, const shape *a, const shape *
     return q->lent == TELLING ? TELLING : UNTRIED;
 }
 #else
-#define recall_and_remember(q, a, b, o, r, spent) UNTRIED
+#define recall_and_remember(q, a, b, o, r, spent) ((void)(spent), UNTRIED)
 #endif
 
 /* So many are used up already. */
@@ -180,23 +189,30 @@ static const options *take_steps_off(options *own, const options *o, int steps)
     return own;
 }
 
+/* Whether they meet by a look, before a search is set up. 0: that is left to the search, less the steps and calls that
+ * were spent. */
+static inline int meet_at_sight(search *q, const shape *a, const shape *b, const options *o, result *r, int spent[2])
+{
+    if (q->glanced == UNTRIED && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d)) {
+        if (!lender_of(a, b, o, 1))
+            q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, r) : glance(q, a, b, r);
+        else if (is_recalled(q, a, b, (int)steps_of(o))) q->glanced = recall_and_remember(q, a, b, o, r, spent);
+    }
+#if DIM == 3
+    if (q->glanced == IN_VAIN) q->glanced = stride_and_remember(q, a, b, o, r);
+    if (!q->listed && o->slack == 0 && look_at_solids(q, (int)steps_of(o), a, b, r, spent)) q->glanced = TELLING;
+#endif
+    return q->glanced == TELLING;
+}
+
 static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
     const options *o = check_options(&own, given);
     result r;
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
-    int spent[2] = {0, 0}; /* steps and calls, on what is left to the search */
-    if (q->glanced == UNTRIED && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d)) {
-        if (!lender_of(a, b, o, 1))
-            q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, out) : glance(q, a, b, out);
-        else if (is_recalled(q, a, b, (int)steps_of(o))) q->glanced = recall_and_remember(q, a, b, o, out, spent);
-    }
-#if DIM == 3
-    if (q->glanced == IN_VAIN) q->glanced = stride_and_remember(q, a, b, o, out);
-    if (!q->listed && o->slack == 0 && look_at_solids(q, (int)steps_of(o), a, b, out, spent)) q->glanced = TELLING;
-#endif
-    if (q->glanced == TELLING) return out->status = GJK_DECIDED;
+    int spent[2] = {0, 0};
+    if (meet_at_sight(q, a, b, o, out, spent)) return out->status = GJK_DECIDED;
     o = keep_options(&own, o, given);
     if (spent[0] > 0) o = take_steps_off(&own, o, spent[0]);
     real radius = a->radius + b->radius;
@@ -259,25 +275,16 @@ static int answer_penetration(search *q, const shape *a, const shape *b, const o
     if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
     q->lent = UNTRIED;
     list_both(q, a, b, o);
-    real radius = a->radius + b->radius;
-    goal g = {.beyond = REAL_MAX,
-              .within = -1,
-              .radius = radius,
-              .abs_tol = o->abs_tol,
-              .rel_tol = o->rel_tol,
-              .early = o->abs_tol > 0 || o->rel_tol > 0,
-              .exact = are_exact(q, a, b, o),
-              .deep = 1,
-              .max_steps = (int)o->max_steps};
+    goal g = goal_of(q, a, b, o);
+    g.deep = 1;
     g.tight = g.exact && o->tight;
-    if (o->cutoff > 0) g.beyond = (o->cutoff + radius) * (1 + 16 * UNIT);
 
     enum end end;
     int bad = reply_to(q, a, b, o, &g, &end, &r);
     if (bad) return bad;
     r.lower = larger(r.lower, -REAL_MAX); /* any slack may have been taken off */
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, o, end, q, radius, 1);
+    r.status = distance_status(&r, o, end, q, g.radius, 1);
     if (g.tight && r.status == GJK_OK && !narrow(&r, o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
     *out = r;
     return r.status;

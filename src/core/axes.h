@@ -110,8 +110,8 @@ static APART int take_gauge_in_frame(gauge *k, const difference *d, real most)
 static inline int take_gauge(gauge *k, const difference *d)
 {
     k->framed = k->brought = 0;
-    k->m[0] = d->a.posed ? d->a.m : unturned;
-    k->m[1] = d->b.posed ? d->b.m : unturned;
+    k->m[0] = map_of(&d->a);
+    k->m[1] = map_of(&d->b);
     k->e = load(((const box *)d->a.data)->half);
     k->f = load(((const box *)d->b.data)->half);
     EACH(k->unit[0].c[i] = k->unit[1].c[i] = 1);
@@ -580,13 +580,7 @@ static APART enum glanced glance_at_plain_boxes(search *q, int max_steps, const 
 /* The walk takes up the last query's simplex after all. 0: something is wrong. */
 static APART int reopen_after_axes(search *q, const shape *a, const shape *b, const cache *k)
 {
-    const int steps = q->steps;
-    if (!lends(k, a, b)) return 1;
-    blank(q);
-    q->steps = steps;
-    if (reopen_listed(q, k)) return 1;
-    blank(q);
-    q->steps = steps;
+    if (!lends(k, a, b) || reopen_listed(q, k)) return 1;
     q->v = first_direction(&q->d);
     return ask_anew(&q->d, q->v, 1, spare(&q->s));
 }

@@ -85,9 +85,9 @@ static vec corner_aside(const body *k, const shape *s, vec n, vec aside)
 {
     vec best = axis(0, 0), up = k->posed ? pull(k->m, n) : n, out = k->posed ? pull(k->m, aside) : aside;
     if (is_box(s)) { /* axis by axis */
-        best = mul(box_corner(s, up), k->grain);
+        best = mul(corner_of_box(s->data, up), k->grain);
         EACH(up.c[i] = size(up.c[i] * best.c[i]) > 8 * UNIT ? up.c[i] : out.c[i]);
-        return box_corner(s, up);
+        return corner_of_box(s->data, up);
     }
     real top = -REAL_MAX, most = -REAL_MAX;
     const list l = corners_of(s);
@@ -364,9 +364,8 @@ static int prove(depth *d, real *upper)
  * rounding, where that is more than this: their difference is hardly thicker than rounding then. */
 #define MOST_OPEN UNIT
 
-/* So wide a bracket, times how far out the lowest facet's corners are, says that the surface may have a dent there, as
- * where a corner beyond another facet by less than rounding was not seen. Half of it is what the bound from below is
- * charged, by a height that is no more than these are long; and half what rounds. */
+/* A corner beyond the lowest facet's plane by this share of how far out the facet's own corners are was not seen: the
+ * surface has a dent there. The bound from below is charged half of it, and half is what rounds. */
 #define DENT (4 * UNIT)
 
 /* Whether rounding has spoilt the surface: a corner lies beyond that facet by so much; or the bracket is so wide and
@@ -492,11 +491,11 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (end == OPEN && !flat) end = grow_surface(d);
     if (end == OPEN && own.held && !flat) end = end_by_all(d, &own, upper);
     if (end == FAULT) return end;
-    if (end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
+    if (EXACT && end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     const int proven = prove_grown(d, upper, &end), open = g->exact && end == STILL && is_open(d, proven, *upper);
     if (end == FAULT) return end;
     point_to(d, *upper, weight, flat, &end);
-    if ((g->tight || open) && !d->settled && end != FAULT && d->floor && d->q->steps < g->max_steps &&
+    if (EXACT && (g->tight || open) && !d->settled && end != FAULT && d->floor && d->q->steps < g->max_steps &&
         settle_anew(d, &end) == STILL) {
         prove(d, upper);
         point_to(d, *upper, weight, flat, &end);

@@ -85,7 +85,7 @@ typedef struct search {
     int sidesteps; /* that brought v no nearer, to rounding */
     int steps;
     int told;            /* the answer is found, without more ado */
-    int met;             /* proven by the exact finish, which steps in where rounding leaves it open, */
+    int met;             /* proven without rounding, where rounding leaves it open, */
     real met_off;        /*   of bodies that are off the caller's by no more than this */
     const cache *lender; /* of the warm start's corners; NULL: none, or no longer in doubt */
     unsigned borrowed;   /* slots that still hold them */

@@ -195,7 +195,7 @@ static enum end answer_plainly(search *q, const shape *a, const shape *b, const 
     }
 #endif
     if (!open_listed(q, lender_of(a, b, o, g->sign_only)) || !look_on(q, a, b, o, asked, g, r)) return FAULT;
-    if (q->told) return BEYOND;
+    if (q->told) return BEYOND; /* or however else: not for want of steps */
     if (are_boxes(a, b) && g->sign_only && o->cache && !reopen_after_axes(q, a, b, o->cache)) return FAULT;
     return walk_and_tell(q, a, b, o, g, r);
 }
@@ -206,7 +206,7 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
 {
     q->d.calls = 0;
     q->told = 0;
-    if (q->flat == UNTRIED && q->listed && !g->sign_only) {
+    if (q->flat == UNTRIED && q->listed) {
         q->flat = tell_flat(a, b, o->cache, g, r) ? TELLING : IN_VAIN;
         q->told = q->flat == TELLING;
     }

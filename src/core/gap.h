@@ -181,9 +181,7 @@ static inline int is_beside(const body *k, vec corner, vec x, unsigned free)
  * either. */
 static int is_beneath(const search *q, vec l, const spots *p, vec low)
 {
-    const spots c = last_spots(q);
-    const vec way = add(sub(p->w, c.w), sub(low, lost_of_spots(&q->d, &q->d.maps, &c)));
-    return dot(l, way) > UNIT * spread(l);
+    return dot(l, way_from_last(q, p, low)) > UNIT * spread(l);
 }
 
 /* What is seen between x and y: the pair, the way without rounding, and along which axes the points are free. */

@@ -149,7 +149,7 @@ static vec farthest_corner(const outlook *o, const body *k, const shape *s, real
     vec rough;
     const real grain = k->grain;
     EACH(rough.c[i] = own(duo_add(o->high.c[i], o->low.c[i])));
-    if (is_box(s)) return box_corner(s, rough);
+    if (is_box(s)) return corner_of_box(s->data, rough);
     const list l = corners_of(s);
     const ways way = ways_of(mul(rough, grain));
     const size_t in_runs = unruly(grain) ? 0 : l.count / RUN * RUN;

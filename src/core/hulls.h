@@ -45,31 +45,39 @@ static APART enum glanced dig_at_door(search *q, real height, vec first_at, cons
     return seen;
 }
 
+/* Their corners along v, and what these show, to that doubt; c leads from a's position to b's, cc is its square. 0:
+ * they can't be asked for, or the sizes are none that a glance knows. */
+HOT int see_hulls(search *q, vec c, real cc, vec v, evidence *e, real *doubt)
+{
+    difference *d = &q->d;
+    vertex *p = &q->s.slot[0];
+    if (!(dot(v, v) > 1 / PLAIN) || !point_of_hull(&d->a, plain_direction(&d->a, mul(v, -1)), FIRST_SIGHT, &p->x) ||
+        !point_of_hull(&d->b, plain_direction(&d->b, v), FIRST_SIGHT, &p->y))
+        return 0;
+    e->a = mapped(&d->a, p->x);
+    e->b = mapped(&d->b, p->y);
+    e->w = sub(e->a, add(e->b, c));
+    e->height = dot(v, e->w);
+    const real map_a = square_of_hull(&d->a), map_b = square_of_hull(&d->b);
+    const real set_a = square_of_list(&d->a.list, 1, 1), set_b = square_of_list(&d->b.list, 1, 1);
+    const real square = map_a * set_a + map_b * set_b + cc;
+    *doubt = GLANCE_DOUBT * root(square);
+    return are_squares_plain(map_a, map_b, set_a, set_b, square);
+}
+
 /* UNTRIED: they are no such hulls, or of sizes that a glance does not know; or the way that a cache has kept has told
  * nothing, and q->lent says so. Where there is a cache others dig, who fill it. */
 static APART enum glanced glance_at_hulls(search *q, const cache *own, const shape *a, const shape *b, result *r)
 {
     difference *d = &q->d;
-    vertex *p = &q->s.slot[0];
     evidence e;
+    real doubt;
     if (!take_hull(&d->a, a) || !take_hull(&d->b, b)) return UNTRIED;
     const vec c = offset(a->pose, b->pose);
     vec v = mul(c, -1);
     const real cc = dot(v, v);
     const int lent = own && lends(own, a, b);
-    if (lent && !recall_way(d, own, &v)) return UNTRIED;
-    if (!(dot(v, v) > 1 / PLAIN) || !point_of_hull(&d->a, plain_direction(&d->a, mul(v, -1)), FIRST_SIGHT, &p->x) ||
-        !point_of_hull(&d->b, plain_direction(&d->b, v), FIRST_SIGHT, &p->y))
-        return UNTRIED;
-    e.a = mapped(&d->a, p->x);
-    e.b = mapped(&d->b, p->y);
-    e.w = sub(e.a, add(e.b, c));
-    e.height = dot(v, e.w);
-    const real map_a = square_of_hull(&d->a), map_b = square_of_hull(&d->b);
-    const real set_a = square_of_list(&d->a.list, 1, 1), set_b = square_of_list(&d->b.list, 1, 1);
-    const real square = map_a * set_a + map_b * set_b + cc;
-    if (!are_squares_plain(map_a, map_b, set_a, set_b, square)) return UNTRIED;
-    const real doubt = GLANCE_DOUBT * root(square);
+    if ((lent && !recall_way(d, own, &v)) || !see_hulls(q, c, cc, v, &e, &doubt)) return UNTRIED;
     if (e.height > 0) {
         weigh_evidence(&e, v, doubt);
         if (e.lower > 0) {
@@ -86,7 +94,7 @@ static APART enum glanced glance_at_hulls(search *q, const cache *own, const sha
     stay_outside(d, a, b);
     d->doubt = doubt;
     start_glance(q, v);
-    p->w = e.w;
+    q->s.slot[0].w = e.w;
     q->listed = 1;
     q->thin = q->planar = q->flat = UNTRIED;
     if (own) return IN_VAIN;

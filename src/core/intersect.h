@@ -71,8 +71,8 @@ static enum end probe_ball(search *q, real r, int max_steps, real *upper, simple
     return end;
 }
 
-/* The simplex of the points by the ball's corners holds the origin with room all around: it tells a point of both where
- * that of the search, too thin or too far off, does not. These are no corners: the cache is to stay, and what is left
+/* The points by the ball's corners, around the origin, tell a point of both that is one to more digits than that of the
+ * search, which is too thin or too far off, if that is so. These are no corners: the cache is to stay, and what is left
  * to do is to place them, of which the grain is now 1. */
 static void stand_among(search *q, simplex *around, real weight[DIM + 1])
 {
@@ -84,9 +84,8 @@ static void stand_among(search *q, simplex *around, real weight[DIM + 1])
         p->w = corner_at(&q->d, p->x, p->y);
     }
     weigh(around, share);
-    const real least = smaller(smaller(share[0], share[1]), smaller(share[2], share[DIM]));
     const vec off = blend(around, share, offsetof(vertex, w), 1), was = blend(&q->s, weight, offsetof(vertex, w), 1);
-    if (!(least >= 0 && dot(off, off) < dot(was, was))) return;
+    if (!(dot(off, off) < dot(was, was))) return;
     q->s = *around;
     q->d.a.grain = q->d.b.grain = 1;
     q->kept = 1;

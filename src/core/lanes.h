@@ -16,7 +16,6 @@ static inline lanes sums(lanes x, lanes y) { return _mm_add_pd(x, y); }
 static inline lanes differences(lanes x, lanes y) { return _mm_sub_pd(x, y); }
 static inline lanes products(lanes x, lanes y) { return _mm_mul_pd(x, y); }
 static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_pd(x, y); }
-static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_pd(x, y); }
 static inline lanes sizes(lanes x) { return _mm_andnot_pd(_mm_set1_pd(-0.0), x); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_pd(_mm_cmpge_pd(x, y)); }
 static inline lanes no_larger(lanes x, lanes y) { return _mm_cmple_pd(x, y); }
@@ -27,7 +26,6 @@ static inline void part_lanes(lanes x, real r[LANES]) { _mm_storeu_pd(r, x); }
 static inline lanes join_lanes(const real x[LANES]) { return _mm_loadu_pd(x); }
 static inline lanes largest_in_all(lanes x) { return _mm_max_pd(x, _mm_shuffle_pd(x, x, 1)); }
 static inline real first_lane(lanes x) { return _mm_cvtsd_f64(x); }
-static inline lanes least_in_all(lanes x) { return _mm_min_pd(x, _mm_shuffle_pd(x, x, 1)); }
 
 /* A bit for each of eight comparisons: whether it holds. */
 HOT unsigned eight_that_hold(const lanes x[4])
@@ -60,7 +58,6 @@ static inline lanes sums(lanes x, lanes y) { return _mm_add_ps(x, y); }
 static inline lanes differences(lanes x, lanes y) { return _mm_sub_ps(x, y); }
 static inline lanes products(lanes x, lanes y) { return _mm_mul_ps(x, y); }
 static inline lanes larger_ones(lanes x, lanes y) { return _mm_max_ps(x, y); }
-static inline lanes smaller_ones(lanes x, lanes y) { return _mm_min_ps(x, y); }
 static inline lanes sizes(lanes x) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), x); }
 static inline int any_as_large(lanes x, lanes y) { return _mm_movemask_ps(_mm_cmpge_ps(x, y)); }
 static inline lanes no_larger(lanes x, lanes y) { return _mm_cmple_ps(x, y); }
@@ -75,11 +72,6 @@ static inline lanes largest_in_all(lanes x)
     return _mm_max_ps(x, _mm_shuffle_ps(x, x, 0xb1));
 }
 static inline real first_lane(lanes x) { return _mm_cvtss_f32(x); }
-static inline lanes least_in_all(lanes x)
-{
-    x = _mm_min_ps(x, _mm_shuffle_ps(x, x, 0x4e));
-    return _mm_min_ps(x, _mm_shuffle_ps(x, x, 0xb1));
-}
 
 HOT unsigned eight_that_hold(const lanes x[2])
 {
@@ -124,7 +116,6 @@ static inline lanes sums(lanes x, lanes y) { return x + y; }
 static inline lanes differences(lanes x, lanes y) { return x - y; }
 static inline lanes products(lanes x, lanes y) { return x * y; }
 static inline lanes larger_ones(lanes x, lanes y) { return larger(x, y); }
-static inline lanes smaller_ones(lanes x, lanes y) { return smaller(x, y); }
 static inline lanes sizes(lanes x) { return size(x); }
 static inline int any_as_large(lanes x, lanes y) { return x >= y; }
 static inline lanes no_larger(lanes x, lanes y) { return x <= y ? 1 : 0; }
@@ -135,7 +126,6 @@ static inline void part_lanes(lanes x, real r[LANES]) { r[0] = x; }
 static inline lanes join_lanes(const real x[LANES]) { return x[0]; }
 static inline lanes largest_in_all(lanes x) { return x; }
 static inline real first_lane(lanes x) { return x; }
-static inline lanes least_in_all(lanes x) { return x; }
 HOT unsigned eight_that_hold(const lanes x[8])
 {
     unsigned r = 0;

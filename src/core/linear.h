@@ -105,7 +105,7 @@ HOT real spread(vec a)
     return r;
 }
 
-/* Largest size; a NaN is passed over. */
+/* Largest size; a NaN is passed over, but for the first, of which nothing is known. */
 HOT real peak(vec a)
 {
     real r = size(a.c[0]);

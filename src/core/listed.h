@@ -219,8 +219,9 @@ static size_t share_of(const body *k, size_t few)
 /* One corner in n of a list is left, or more where these would be too few. */
 static void thin_out(body *k, size_t n, size_t few)
 {
-    size_t share = share_of(k, few);
+    const size_t share = share_of(k, few);
     if (n > share) n = share;
+    if (n == 1) return; /* a box has no list */
     k->list.count = (k->list.count + n - 1) / n;
     k->list.step *= n;
 }
@@ -275,7 +276,16 @@ static int open_at(search *q, const cache *k)
 /* From the points of the last query, if they are corners still: nothing is taken on trust. 0: they are not, or as
  * above.
  */
-static int reopen_listed(search *q, const cache *k) { return are_lent_well(&q->d, k) && open_at(q, k); }
+static int reopen_listed(search *q, const cache *k)
+{
+    const int steps = q->steps;
+    blank(q);
+    q->steps = steps;
+    if (are_lent_well(&q->d, k) && open_at(q, k)) return 1;
+    blank(q);
+    q->steps = steps;
+    return 0;
+}
 
 #if DIM == 2
 /* From where polygons looked at by themselves were left. 0: nothing comes of it. */
@@ -325,7 +335,7 @@ static int take_up_trail(search *q)
     for (int i = 0; i < t->n + t->pending; i++) q->s.slot[t->at[i]].w = mul(corner(&q->s, i)->w, by);
     q->v = mul(q->v, by);
     q->vv = t->vv * (by * by);
-    q->inside *= by;
+    if (t->n > DIM) q->inside *= by;
     q->weighed = 1;
     q->lower = larger(t->lower * by, -4);
     q->normal = t->normal;
@@ -346,14 +356,7 @@ static int open_listed(search *q, const cache *k)
 #if DIM == 3
     if (q->glanced == STRODE && !q->d.wild) return take_up_trail(q);
 #endif
-    const int steps = q->steps;
-    if (k) {
-        blank(q);
-        q->steps = steps;
-        if (reopen_listed(q, k)) return 1;
-        blank(q);
-        q->steps = steps;
-    }
+    if (k && reopen_listed(q, k)) return 1;
     if (q->pending) return 1;
     vertex *p = spare(&q->s);
     if (q->glanced != AIMED || q->d.wild) q->v = first_direction(&q->d);

@@ -333,7 +333,7 @@ static enum end first_surface(depth *d)
 /* ---- the proof ---- */
 
 /* Whether tips are points of the bodies in the caller's unit: none of a dip, nor those of ready-made round sets. */
-static int are_placed(const depth *d) { return d->g->exact || (EXACT && !d->dips && !d->q->d.a.in && !d->q->d.b.in); }
+static int are_placed(const depth *d) { return EXACT && (d->g->exact || (!d->dips && !d->q->d.a.in && !d->q->d.b.in)); }
 
 /* On which side of the facet's plane the origin is: above 0, the inner; below 0, the outer, or numbers are lost. */
 static int inner_side(const depth *d, const facet *f)

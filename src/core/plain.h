@@ -97,6 +97,13 @@ static APART void approach(search *q, const goal *g)
     }
 }
 
+/* What the walk has come to by a step; still: by one that took no corner in. */
+static inline enum end end_of_step(search *q, const goal *g, int still)
+{
+    if (q->s.n > DIM) return INSIDE;
+    return g->early && !still ? judge(q, g) : OPEN;
+}
+
 /* Walks like descend, from the corner in the spare slot, and ends as it does, but for what was stuck. A corner that was
  * sought elsewhere than along v, or in haste, and lies no lower along it, is sought along v, with care. OPEN, with
  * steps left: something is out of the ordinary with that corner, which is not taken in and not counted. */
@@ -124,10 +131,8 @@ static enum end stroll(search *q, const goal *g, int headings, int hasty)
             return g->early && judge(q, g) == WITHIN ? WITHIN : STILL; /* of a simplex lent, which nobody has judged */
         }
         if (!still && !step_plainly(q)) return OPEN;
-        enum end end = OPEN;
         q->steps++;
-        if (q->s.n > DIM) end = INSIDE;
-        else if (g->early && !still) end = judge(q, g);
+        const enum end end = end_of_step(q, g, still);
         if (end != OPEN || q->steps >= g->max_steps) {
             raise(q, q->way, w);
             return end;
@@ -148,11 +153,17 @@ static enum end stroll(search *q, const goal *g, int headings, int hasty)
 
 /* ---- telling ---- */
 
-/* The corner in the spare slot looked no lower along v than the pair, but it is, without the roundings of either. */
-static int is_passed_over(const search *q, const spots *p, vec low)
+/* From the corner in the spare slot to the pair's, without the roundings of either. */
+static inline vec way_from_last(const search *q, const spots *p, vec low)
 {
     const spots c = last_spots(q);
-    vec way = add(sub(p->w, c.w), sub(low, lost_of_spots(&q->d, &q->d.maps, &c)));
+    return add(sub(p->w, c.w), sub(low, lost_of_spots(&q->d, &q->d.maps, &c)));
+}
+
+/* That corner looked no lower along v than the pair, but it is, without these. */
+static int is_passed_over(const search *q, const spots *p, vec low)
+{
+    const vec way = way_from_last(q, p, low);
     return dot(q->v, way) > forgiven(q->s.n) * noise_along(q->v, way);
 }
 

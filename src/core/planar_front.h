@@ -92,8 +92,7 @@ HOT int place_run(const placing *k, int framed, const real *x, size_t step, clus
 /* All of them. */
 HOT int place_corners(const body *k, int framed, cluster *p)
 {
-    static const real identity[DIM * DIM] = {1, 0, 0, 1};
-    p->m = k->posed ? k->m : identity;
+    p->m = map_of(k);
     const placing to = placing_of(k, p->m);
     real run[RUN * DIM];
     const real *first = p->from->v, *last = first;
@@ -143,17 +142,7 @@ HOT unsigned highest_placed(const cluster *p, vec v)
 }
 
 /* The first of those that are lowest, which are the highest the other way. */
-HOT unsigned lowest_placed(const cluster *p, vec v)
-{
-    lanes heights[PLACES / LANES], least;
-    unsigned lowest = 1u << (PLACES - 1); /* where no height is a number */
-    raise_placed(p, v, heights);
-    least = heights[0];
-    for (int i = LANES; i < PLACES; i += LANES) least = smaller_ones(least, heights[i / LANES]);
-    least = least_in_all(least);
-    for (int i = 0; i < PLACES; i += LANES) lowest |= (unsigned)any_as_large(least, heights[i / LANES]) << i;
-    return first_bit(lowest);
-}
+HOT unsigned lowest_placed(const cluster *p, vec v) { return highest_placed(p, mul(v, -1)); }
 
 /* ---- the front ---- */
 

@@ -472,14 +472,6 @@ static int has_corners(const shape *s)
 
 static int is_box(const shape *s) { return s->support == pub(support_box); }
 
-/* The box's corner farthest along the direction. */
-static vec box_corner(const shape *s, vec along)
-{
-    vec r = load(((const box *)s->data)->half);
-    EACH(r.c[i] = along.c[i] < 0 ? -r.c[i] : r.c[i]);
-    return r;
-}
-
 /* How many, of a set that has them, and whose support has found the data good. */
 static size_t count_corners(const shape *s)
 {

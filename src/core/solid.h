@@ -95,13 +95,7 @@ HOT real square_of_solid(const solid *k)
     return k->kind == IS_BOX ? dot(s, s) : s.c[0] * s.c[0] + s.c[2] * s.c[2];
 }
 
-HOT vec squares_of_axes(const solid *k)
-{
-    vec uu = axis(0, 1);
-    EACH(uu.c[i] = k->m ? k->m[i] * k->m[i] : 1);
-    if (k->m) EACH(uu.c[i] += k->m[DIM + i] * k->m[DIM + i]; uu.c[i] += k->m[2 * DIM + i] * k->m[2 * DIM + i]);
-    return uu;
-}
+HOT vec squares_of_axes(const solid *k) { return k->m ? squared_columns(k->m, 1) : (vec){{1, 1, 1}}; }
 
 /* Two solids, b's middle at c from a's; v leads back. */
 typedef struct couplet {
@@ -121,8 +115,8 @@ typedef struct couplet {
 /* Squares that are no less lose nothing that counts to underflow. */
 #define LEAST_SQUARE (REAL_MIN / (UNIT * UNIT))
 
-/* The doubt as a glance has it. UNCLEAR: squares leave their range. IN_VAIN: one solid, or the way between them, is as
- * small as a rounding of the others, in any unit. */
+/* The doubt as a glance has it. TELLING: a glance may tell. UNCLEAR: squares leave their range. IN_VAIN: one solid, or
+ * the way between them, is as small as a rounding of the others, in any unit. */
 HOT enum glanced doubt_solids(couplet *k)
 {
     k->uu[0] = squares_of_axes(&k->a);

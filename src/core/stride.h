@@ -14,8 +14,8 @@
  * are no radii, which may reach across before the cores meet. */
 static inline int are_for_strides(const difference *d, const shape *a, const shape *b)
 {
-    return !is_thin(&d->a) && !is_thin(&d->b) && (d->a.asked != AS_BOX || d->b.asked != AS_BOX) &&
-           a->radius + b->radius == 0;
+    return !is_thin(&d->a) && !is_thin(&d->b) && (d->a.asked != AS_BOX || d->b.asked != AS_BOX) && a->radius == 0 &&
+           b->radius == 0;
 }
 
 /* The corner is not so near to the origin that it gives no direction. */
@@ -268,13 +268,16 @@ HOT vec inner_point(const body *k, int hull)
     return middle_of(&k->list, hull ? 1 : k->grain);
 }
 
+/* 1 / sqrt(3): with that for p the ways are those of a regular triangle around the line. */
+#define ACROSS_FAN ((real)0.58)
+
 /* The ways least along which such corners lie: beside the line from o, within, to the first corner p. How long its
  * parts are is told by their spreads, which is near enough. 0: there are none, as p lies as far along o as o does, or
  * in line with it. */
 HOT int spread_fan(vec o, vec p, vec way[FAN])
 {
     const real oo = dot(o, o), op = dot(o, p), per = 1 / oo, tall = spread(o), fall = 1 - op * per;
-    const vec aside = sub(p, mul(o, op * per)), across = mul(cross(o, aside), tall * per * (real)0.58);
+    const vec aside = sub(p, mul(o, op * per)), across = mul(cross(o, aside), tall * per * ACROSS_FAN);
     const vec down = mul(o, spread(aside) / (tall * fall)), on = add(mul(aside, (real)0.5), down);
     way[0] = add(on, across);
     way[1] = sub(on, across);
