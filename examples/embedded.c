@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A guard for a small vehicle: is anything nearer than the margin? In float, in static memory, without the C
- * library; only main, which plays the vehicle's part on a desk, prints. */
+/* A guard for a small vehicle: is anything nearer than the margin? In float, without a heap, and of the C
+ * library with memcpy, memset and sqrtf alone; only main, which plays the vehicle's part on a desk, prints. */
 #include <gjk/gjk2f.h>
 
 enum { OBSTACLES = 3 };

@@ -17,10 +17,11 @@ extern "C" {
  *   lengths   any unit, one unit. There are no angles.
  *   frame     the poses put both shapes in one frame; points and normals come back in that frame.
  *   memory    pointers are borrowed for the call. Nothing is kept, nothing is allocated.
- *   threads   no global state. Calls may run at once unless they share a cache.
+ *   threads   no global state. Calls may run at once unless they share a cache or a workspace.
  *   truth     status >= 0: lower <= answer <= upper holds, rounding included.
  *             status < 0: the caller's mistake, *out untouched.
- *   numbers   IEEE arithmetic, rounding to nearest, subnormal numbers kept (no flush-to-zero).
+ *   numbers   IEEE arithmetic, rounding to nearest, subnormal numbers kept (no flush-to-zero), exceptions masked: calls
+ *             raise their flags as a matter of course, and read none.
  *   return    the status, also found in the result. */
 
 /* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero; not unit, but of a size
@@ -46,7 +47,7 @@ typedef struct gjk2f_shape {
     gjk2f_support_fn *support; /* yours, or a ready-made one */
     const void *data;         /* handed to support */
     const gjk2f_pose *pose;    /* NULL: identity. For large worlds give b relative to a, and a none */
-    float radius;            /* of the ball; 0 keeps corners sharp */
+    float radius;            /* of the ball, up to 1/16 of the largest number; 0 keeps corners sharp */
 } gjk2f_shape;
 
 /* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
@@ -105,7 +106,7 @@ GJK_API int gjk2f_distance(const gjk2f_shape *a, const gjk2f_shape *b, const gjk
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
  * the depth of the overlap, and is only as tight as the proof needs:
- *   lower > 0    apart             value = lower
+ *   lower > 0    apart             value = lower; status GJK_DECIDED, as of the next two
  *   upper < 0    overlapping       value = upper
  *   upper == 0   they meet: proven of points, box, segment and origin, however slightly
  *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
@@ -125,12 +126,13 @@ GJK_API int gjk2f_intersect(const gjk2f_shape *a, const gjk2f_shape *b, const gj
  * status GJK_LIMIT. 64 corners do for everyday polygons and round shapes. Radii take no room. cutoff and tolerances are
  * as for distance; of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth
  * down to about the least that the coordinates can spell is right to the last place. It takes up to 60 KB of stack
- * where the compiler optimises, in float 36, its own room for corners included. */
+ * where the compiler optimises, in float 36, its own room for corners included. A library built with GJK_NO_DEPTH
+ * has neither this function nor the next. */
 GJK_API int gjk2f_penetration(const gjk2f_shape *a, const gjk2f_shape *b, const gjk2f_options *options, gjk2f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 7264 bytes of stack, in float 4160. Of smooth shapes, which float asks of its larger sister unless it is built with
- * GJK_ALONE, it is her room, and a workspace is of use where it is larger than that. Calls may run at once unless they
- * share a workspace; what it holds before and after is of no account. */
+ * GJK_ALONE, it is her room, and a workspace is of use where it is larger than that. What it holds before and after is
+ * of no account. */
 GJK_API size_t gjk2f_workspace_size(uint32_t corners);
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
@@ -194,7 +196,8 @@ typedef struct gjk2f_ellipsoid {
 GJK_API float gjk2f_support_ellipsoid(const void *ellipsoid, const float dir[2], float point[2]);
 
 /* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
- * couples, never itself. A part of unknown reach costs four more calls each time. */
+ * couples, never itself. A part of unknown reach costs four more calls each time; one
+ * that may fall short by more than half its size, as slack allows, is to say its reach. */
 typedef struct gjk2f_couple {
     gjk2f_shape a, b;
 } gjk2f_couple;

@@ -17,10 +17,11 @@ extern "C" {
  *   lengths   any unit, one unit. There are no angles.
  *   frame     the poses put both shapes in one frame; points and normals come back in that frame.
  *   memory    pointers are borrowed for the call. Nothing is kept, nothing is allocated.
- *   threads   no global state. Calls may run at once unless they share a cache.
+ *   threads   no global state. Calls may run at once unless they share a cache or a workspace.
  *   truth     status >= 0: lower <= answer <= upper holds, rounding included.
  *             status < 0: the caller's mistake, *out untouched.
- *   numbers   IEEE arithmetic, rounding to nearest, subnormal numbers kept (no flush-to-zero).
+ *   numbers   IEEE arithmetic, rounding to nearest, subnormal numbers kept (no flush-to-zero), exceptions masked: calls
+ *             raise their flags as a matter of course, and read none.
  *   return    the status, also found in the result. */
 
 /* Writes to point a point of the set that lies farthest along dir. dir is finite and not zero; not unit, but of a size
@@ -46,7 +47,7 @@ typedef struct gjk3f_shape {
     gjk3f_support_fn *support; /* yours, or a ready-made one */
     const void *data;         /* handed to support */
     const gjk3f_pose *pose;    /* NULL: identity. For large worlds give b relative to a, and a none */
-    float radius;            /* of the ball; 0 keeps corners sharp */
+    float radius;            /* of the ball, up to 1/16 of the largest number; 0 keeps corners sharp */
 } gjk3f_shape;
 
 /* A warm start: where the last query of this pair ended. Start it as {0} and hand it to each query of the
@@ -105,7 +106,7 @@ GJK_API int gjk3f_distance(const gjk3f_shape *a, const gjk3f_shape *b, const gjk
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
  * the depth of the overlap, and is only as tight as the proof needs:
- *   lower > 0    apart             value = lower
+ *   lower > 0    apart             value = lower; status GJK_DECIDED, as of the next two
  *   upper < 0    overlapping       value = upper
  *   upper == 0   they meet: proven of points, box, segment, triangle and origin, however slightly
  *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
@@ -127,12 +128,13 @@ GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gj
  * of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth down to about the
  * least that the coordinates can spell is right to the last place, unless the polytope comes to its end in the noise of
  * nearly flat bodies; then the bracket is the usual one. It takes up to 90 KB of stack where the compiler
- * optimises, in float 52, its own room for corners included. */
+ * optimises, in float 52, its own room for corners included. A library built with GJK_NO_DEPTH has
+ * neither this function nor the next. */
 GJK_API int gjk3f_penetration(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 13536 bytes of stack, in float 8352. Of smooth shapes, which float asks of its larger sister unless it is built with
- * GJK_ALONE, it is her room, and a workspace is of use where it is larger than that. Calls may run at once unless they
- * share a workspace; what it holds before and after is of no account. */
+ * GJK_ALONE, it is her room, and a workspace is of use where it is larger than that. What it holds before and after is
+ * of no account. */
 GJK_API size_t gjk3f_workspace_size(uint32_t corners);
 
 /* The ready-made supports. Not special: each could have been yours. A size that is negative or not finite, or
@@ -219,7 +221,8 @@ typedef struct gjk3f_disc {
 GJK_API float gjk3f_support_disc(const void *disc, const float dir[3], float point[3]);
 
 /* Two shapes as one, poses and radii included; the data of the two supports below. A couple may hold
- * couples, never itself. A part of unknown reach costs six more calls each time. */
+ * couples, never itself. A part of unknown reach costs six more calls each time; one
+ * that may fall short by more than half its size, as slack allows, is to say its reach. */
 typedef struct gjk3f_couple {
     gjk3f_shape a, b;
 } gjk3f_couple;

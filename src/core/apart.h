@@ -56,7 +56,7 @@ static APART enum end turn_to_dip(search *q, const shape *a, const shape *b, con
         return BEYOND;
     }
     const real far = length(q->v);
-    if (g->max_steps < 2 || !(far > 0) || !know_first_bulk(q->first_dip, &q->d, a, b)) return OPEN;
+    if (!ROUND || g->max_steps < 2 || !(far > 0) || !know_first_bulk(q->first_dip, &q->d, a, b)) return OPEN;
     if (!find_least(of, mul(q->v, -1 / far), NULL, at)) return OPEN;
     q->first_dip->found = 1;
     const int deep = g->deep && at->height > 64 * q->d.doubt;

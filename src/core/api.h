@@ -75,7 +75,7 @@ static int has_workspace(const options *o)
 HOT int tell_plainly(search *q, const shape *a, const shape *b, const options *o, int sign_only, int deep, result *r)
 {
     q->thin = q->planar = q->flat = UNTRIED;
-    if (!a || !b || !r || !asks_nothing_else(o) || (deep && o && !has_workspace(o))) return 0;
+    if (!SHORTCUTS || !a || !b || !r || !asks_nothing_else(o) || (deep && o && !has_workspace(o))) return 0;
     if (DIM == 3 || !HAS_SISTER) { /* in the plane flat.h has them */
         const goal g = {.beyond = REAL_MAX, .radius = a->radius + b->radius, .sign_only = sign_only, .deep = deep};
         q->thin = tell_thin_at_once(a, b, o ? o->cache : NULL, &g, r);
@@ -193,6 +193,7 @@ static const options *take_steps_off(options *own, const options *o, int steps)
  * were spent. */
 static inline int meet_at_sight(search *q, const shape *a, const shape *b, const options *o, result *r, int spent[2])
 {
+    if (!SHORTCUTS) return q->listed = 0;
     if (q->glanced == UNTRIED && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d)) {
         if (!lender_of(a, b, o, 1))
             q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, r) : glance(q, a, b, r);
@@ -200,7 +201,8 @@ static inline int meet_at_sight(search *q, const shape *a, const shape *b, const
     }
 #if DIM == 3
     if (q->glanced == IN_VAIN) q->glanced = stride_and_remember(q, a, b, o, r);
-    if (!q->listed && o->slack == 0 && look_at_solids(q, (int)steps_of(o), a, b, r, spent)) q->glanced = TELLING;
+    if (ROUND && !q->listed && o->slack == 0 && look_at_solids(q, (int)steps_of(o), a, b, r, spent))
+        q->glanced = TELLING;
 #endif
     return q->glanced == TELLING;
 }
@@ -247,14 +249,18 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
     search q;
     q.dug = -1;
     q.glanced = q.lent = UNTRIED;
-    if (are_plain_hulls(a, b, given, out)) q.glanced = glance_at_hulls(&q, given ? given->cache : NULL, a, b, out);
-    else if (are_plain_boxes(a, b, given, out)) q.glanced = glance_at_plain_boxes(&q, (int)steps_of(given), a, b, out);
+    if (SHORTCUTS && are_plain_hulls(a, b, given, out))
+        q.glanced = glance_at_hulls(&q, given ? given->cache : NULL, a, b, out);
+    else if (SHORTCUTS && are_plain_boxes(a, b, given, out))
+        q.glanced = glance_at_plain_boxes(&q, (int)steps_of(given), a, b, out);
     if (q.glanced == TELLING) return out->status = GJK_DECIDED;
     if (q.glanced == UNTRIED && tell_plainly(&q, a, b, given, 1, 0, out)) return out->status = GJK_DECIDED;
     return answer_intersect(&q, a, b, given, out);
 }
 
 /* ---- how deep ---- */
+
+#if DEPTHS
 
 GJK_API size_t pub(workspace_size)(uint32_t corners)
 {
@@ -296,5 +302,6 @@ GJK_API int pub(penetration)(const shape *a, const shape *b, const options *give
     if (tell_plainly(&q, a, b, given, 0, 1, out)) return out->status = GJK_OK;
     return answer_penetration(&q, a, b, given, out);
 }
+#endif
 
 #endif

@@ -305,7 +305,7 @@ static int find_dip_of_all(const depth *d, bent *b)
 static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
 {
     bent b;
-    if (!all || d->q->steps >= d->g->max_steps || !find_dip_of_all(d, &b)) return 0;
+    if (!ROUND || !all || d->q->steps >= d->g->max_steps || !find_dip_of_all(d, &b)) return 0;
     dip *f = &all->at[last ? MOST_DIPS - 1 : 0];
     search *q = d->q;
     const real lower = q->lower;

@@ -91,15 +91,17 @@ static int tell_trail(search *q, const shape *a, const shape *b, const options *
 /* The corners of both can be listed, and are, and nothing is asked that the everyday way does not know. */
 static inline int list_both(search *q, const shape *a, const shape *b, const options *o)
 {
-    q->listed = !o->tight && o->slack == 0 && list_corners(&q->d.a, a) && list_corners(&q->d.b, b);
+    q->listed = SHORTCUTS && !o->tight && o->slack == 0 && list_corners(&q->d.a, a) && list_corners(&q->d.b, b);
     q->glanced = UNTRIED;
     return q->listed;
 }
 
+static inline int are_listed(const search *q) { return SHORTCUTS && q->listed; }
+
 /* The corners of both are known, and are all that counts. */
 static inline int are_exact(const search *q, const shape *a, const shape *b, const options *o)
 {
-    return EXACT && (q->listed || (o->slack == 0 && has_corners(a) && has_corners(b)));
+    return EXACT && (are_listed(q) || (o->slack == 0 && has_corners(a) && has_corners(b)));
 }
 
 /* What the cache lends to the everyday way. The axes of boxes need none. */
@@ -120,7 +122,7 @@ static int ask_sister_how_far(search *q, const shape *a, const shape *b, const o
 /* How deep two boxes are, if that is asked, or how far apart. */
 static inline int tell_extent(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
-    if (g->deep && (tell_level(q, a, b, g, r) || (ask_centres(q) && tell_boxes(q, a, b, g, r)))) return 1;
+    if (DEPTHS && g->deep && (tell_level(q, a, b, g, r) || (ask_centres(q) && tell_boxes(q, a, b, g, r)))) return 1;
     const int seen = tell_gap(q, a, b, g, r);
     if (!seen && !ask_sister_how_far(q, a, b, o, g, r)) return 0;
     if (o->cache && seen && q->pending) remember(o->cache, q, a, b);
@@ -206,16 +208,16 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
 {
     q->d.calls = 0;
     q->told = 0;
-    if (q->flat == UNTRIED && q->listed) {
+    if (q->flat == UNTRIED && are_listed(q)) {
         q->flat = tell_flat(a, b, o->cache, g, r) ? TELLING : IN_VAIN;
         q->told = q->flat == TELLING;
     }
     *end = STILL;
-    if (DIM == 3 && q->thin == UNTRIED && q->listed && tell_wide_sticks(a, b, g, r)) {
+    if (DIM == 3 && q->thin == UNTRIED && are_listed(q) && tell_wide_sticks(a, b, g, r)) {
         q->told = 1;
         if (o->cache) o->cache->count = 0;
     }
-    if (HAS_SISTER && !q->listed && !g->exact && !g->sign_only) q->told = ask_sister_first(q, a, b, o, g, end, r);
+    if (HAS_SISTER && !are_listed(q) && !g->exact && !g->sign_only) q->told = ask_sister_first(q, a, b, o, g, end, r);
     if (q->told) {
         q->d.scale = leveler(larger(size(r->lower), size(r->upper))); /* what the status is found in */
         q->d.unscale = 1 / q->d.scale;
@@ -223,11 +225,11 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
         q->d.slack = 0;
         return 0;
     }
-    if (q->thin == UNTRIED && q->listed && are_thin(&q->d))
+    if (q->thin == UNTRIED && are_listed(q) && are_thin(&q->d))
         q->thin = are_ends_within(&q->d.a) && are_ends_within(&q->d.b) ? tell_thin(&q->d, a, b, g, r) : IN_VAIN;
     q->told = q->thin == TELLING;
-    tell_polygons(q, a, b, o, g, r);
-    *end = q->told ? STILL : q->listed ? answer_plainly(q, a, b, o, g, r) : FAULT;
+    if (are_listed(q)) tell_polygons(q, a, b, o, g, r);
+    *end = q->told ? STILL : are_listed(q) ? answer_plainly(q, a, b, o, g, r) : FAULT;
     if (q->thin == TELLING && o->cache) o->cache->count = 0; /* there is nothing that a formula would start from */
     if (q->told) return 0;
     if (!sound(a) || !sound(b)) return GJK_BAD_ARGUMENT;

@@ -307,7 +307,7 @@ HOT int tell_walked_flat(const flat *f, dfront *k, enum halt at, int recalled, c
 {
     int told = at == SHOWN      ? tell_flat_apart(f, k, a, b, r)
                : at == FOREMOST ? tell_flat_front(f, k, a, b, g, r)
-               : at == AROUND   ? g->deep ? tell_flat_deep(f, k, a, b, g, r) : tell_flat_held(f, k, r)
+               : at == AROUND   ? DEPTHS && g->deep ? tell_flat_deep(f, k, a, b, g, r) : tell_flat_held(f, k, r)
                                 : 0;
     if (!told && f->radius == 0) told = tell_flat_touching(f, *k, g->deep, r);
     if (told && own) {

@@ -478,9 +478,9 @@ static int goes_around(depth *d, real least)
     return 0;
 }
 
-static inline int count_dips(const depth *d) { return d->dips ? d->dips->n : 0; }
+static inline int count_dips(const depth *d) { return ROUND && d->dips ? d->dips->n : 0; }
 
-static inline dip *lowest_dip(const depth *d) { return d->dips ? d->dips->best : NULL; }
+static inline dip *lowest_dip(const depth *d) { return ROUND && d->dips ? d->dips->best : NULL; }
 
 /* Whether the dip's tip is of no account to what is to be proven: that A - B is as high as r along all ways. */
 static int is_sound(const dip *f, real r) { return floor_near(f, reach_of_tip(f, r), r) >= r; }
@@ -860,7 +860,7 @@ static int seek_dip(depth *d)
     bent b;
     dips *all = d->dips;
     const real least = -d->q->lower;
-    if (!all || all->n == MOST_DIPS || d->q->steps >= d->g->max_steps) return 1;
+    if (!ROUND || !all || all->n == MOST_DIPS || d->q->steps >= d->g->max_steps) return 1;
     if (!(least < all->tried) || (all->best && !(least < all->best->floor - 4 * d->q->d.doubt))) return 1;
     all->tried = least;
     if (!find_lowest_dip(d, all->best || d->p.facets > DIM + 1 ? 0 : d->p.facets, &b)) return 1;

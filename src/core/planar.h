@@ -109,8 +109,8 @@ HOT int look_at_planar(search *q, cache *own, int framed, const shape *a, const 
     const enum halt at = walk_front(d, &k, &f, g);
     int told = at == SHOWN      ? tell_apart_at(q, &k, &f, framed, a, b, g, r)
                : at == FOREMOST ? tell_front(q, &k, &f, framed, a, b, g, r)
-               : at == AROUND   ? g->deep ? !HAS_SISTER && tell_deep(q, &k, f, framed, a, b, g, r)
-                                          : tell_held(q, &k, &f, framed, a, b, g, r)
+               : at == AROUND   ? DEPTHS && g->deep ? !HAS_SISTER && tell_deep(q, &k, f, framed, a, b, g, r)
+                                                    : tell_held(q, &k, &f, framed, a, b, g, r)
                                 : 0;
     if (!told) told = tell_touching(q, &k, f, framed, a, b, g, r);
     if (told && f.n == 0) stand_on_corner(&f, f.last);
@@ -175,7 +175,7 @@ static APART enum glanced tell_planar(search *q, const shape *a, const shape *b,
 static inline void tell_polygons(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     if (q->planar == UNTRIED) q->found.at.count = 0;
-    if (q->told || !q->listed || q->thin != UNTRIED || !are_planar(&q->d)) return;
+    if (q->told || q->thin != UNTRIED || !are_planar(&q->d)) return;
     if (q->planar == UNTRIED) q->planar = tell_planar(q, a, b, o, g, r);
     q->told = q->planar == TELLING;
 }

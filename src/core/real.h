@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "parts.h"
 #include "words.h"
 
 /* Whether the machine reckons several numbers at once (lanes.h). */

@@ -211,7 +211,7 @@ static int has_heights(const shape *s)
 /* Of both, and one is round. */
 static inline int have_heights(const shape *a, const shape *b)
 {
-    return has_heights(a) && has_heights(b) && !(has_corners(a) && has_corners(b));
+    return ROUND && has_heights(a) && has_heights(b) && !(has_corners(a) && has_corners(b));
 }
 
 /* ---- slope and curvature ---- */
@@ -824,8 +824,8 @@ typedef struct first_dip {
 /* What the heights of A - B are made of. 0: it is not known, or edges may lie on one another. */
 static int know_first_bulk(first_dip *f, const difference *d, const shape *a, const shape *b)
 {
-    if (!f->known) f->known = !are_bodies_aligned(d, a, b) && know_bulk(&f->bulk, d, a, b);
-    return f->known;
+    if (ROUND && !f->known) f->known = !are_bodies_aligned(d, a, b) && know_bulk(&f->bulk, d, a, b);
+    return ROUND && f->known;
 }
 
 static inline void forget_first_dip(first_dip *f) { f->known = f->found = 0; }

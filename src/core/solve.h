@@ -393,7 +393,7 @@ static APART enum end solve(search *q, const shape *a, const shape *b, const opt
     if ((still || faint) && g->exact && !g->deep) further = take_further(q, a, b, o, g, upper, weight, r);
     if (further != STILL && !is_plumbed(q, g, still) && !(g->deep && may_meet(q, g, further)))
         answer(q, a, b, g, upper, weight, r);
-    if (g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
+    if (DEPTHS && g->deep) end = go_deep(q, a, b, o, g, upper, weight, r, end);
     else if (still && !g->exact) further = take_further(q, a, b, o, g, upper, weight, r);
     if (end == FAULT) return FAULT;
     r->steps = q->steps;

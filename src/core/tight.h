@@ -9,13 +9,6 @@
 #include "outline.h"
 #include "touch.h"
 
-/* GJK_NO_EXACT leaves it out, and with it the stack that it takes. */
-#ifdef GJK_NO_EXACT
-#define EXACT 0
-#else
-#define EXACT 1
-#endif
-
 typedef struct finish {
     outline a, b;
     real off;                   /* so far these are off the bodies at most */
