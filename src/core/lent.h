@@ -41,7 +41,7 @@ HOT int stand_on_lent(search *q, const cache *k, vec at[DIM + 1])
 HOT void bound_by_reaches(search *q)
 {
     const difference *d = &q->d;
-    const real l = root(dot(d->c, d->c)), far = far_out_of(d);
+    const real l = root(dot(d->c, d->c)), far = whole_of(d);
     q->lower = l - (real)1.5 * far;
     q->normal = axis(0, 1);
     if (l > UNIT * far) EACH(q->normal.c[i] = 0 + d->c.c[i] / l);
@@ -51,7 +51,7 @@ HOT void bound_by_reaches(search *q)
 static int holds_still(search *q, const cache *k, const vec at[DIM + 1], const shape *a, const shape *b, result *r)
 {
     tetra t = {.w = {point(&q->s, 0), point(&q->s, 1), point(&q->s, 2), point(&q->s, 3)}};
-    q->inside = room_of(&t, far_out_of(&q->d));
+    q->inside = room_of(&t, whole_of(&q->d));
     if (!(q->inside > q->d.doubt) || !are_lent_well(&q->d, k)) return 0;
     bound_by_reaches(q);
     return tell_met(q, &t, 1, at, a, b, r);

@@ -100,7 +100,7 @@ HOT int look_at_planar(search *q, cache *own, int framed, const shape *a, const 
     if (!place_corners(&d->a, framed, &k.a) || !place_corners(&d->b, framed, &k.b)) return 0;
     const int lent = own && lends(own, a, b);
     f.n = f.steps = f.around = f.ended = 0;
-    if (lent && !recall(d, &k, framed, &f, own)) {
+    if (lent && !recall_front(d, &k, framed, &f, own)) {
         if (g->deep) return 0; /* to the walk, which knows what was lent */
         f.n = 0;
     }

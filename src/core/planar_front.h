@@ -298,7 +298,7 @@ HOT int stands_at(const body *k, int framed, const cluster *p, unsigned at, cons
 }
 
 /* From the points of the last query, if they stand where they did. 0: they do not. */
-HOT int recall(const difference *d, const scene *k, int framed, front *f, const cache *from)
+HOT int recall_front(const difference *d, const scene *k, int framed, front *f, const cache *from)
 {
     uint32_t hint = from->reserved;
     for (uint32_t i = 0; i < from->count; i++, hint >>= 8) {

@@ -175,13 +175,13 @@ HOT real room_of(tetra *t, real far)
 }
 
 /* How far out corners are, or a little less. */
-static inline real far_out_of(const difference *d) { return d->doubt * (1 / GLANCE_DOUBT); }
+static inline real whole_of(const difference *d) { return d->doubt * (1 / GLANCE_DOUBT); }
 
 /* With the corner in the spare slot a triangle holds the origin; its weights, and the room there. */
 static inline real room_with_last(const search *q, real weight[DIM + 1])
 {
     tetra t = {.w = {point(&q->s, 0), point(&q->s, 1), point(&q->s, 2), point(&q->s, 3)}};
-    const real inside = room_of(&t, far_out_of(&q->d));
+    const real inside = room_of(&t, whole_of(&q->d));
     memcpy(weight, t.weight, sizeof t.weight);
     return inside;
 }
@@ -230,7 +230,7 @@ static inline int tell_closed(search *q, const evidence *e, int of_all, const ve
     const int *of = q->s.at;
     tetra t = {.w = {point(&q->s, 0), point(&q->s, 1), point(&q->s, 2), point(&q->s, 3)}};
     const vec on_a[DIM + 1] = {at[of[0]], at[of[1]], at[of[2]], at[of[3]]};
-    const real inside = room_of(&t, far_out_of(&q->d));
+    const real inside = room_of(&t, whole_of(&q->d));
     if (!(inside > q->d.doubt)) return 0;
     q->inside = inside;
     if (of_all) keep_evidence(q, e);
@@ -294,7 +294,7 @@ HOT int across_from(const real w[DIM + 1])
 /* Whether there is a line of centres, and the first corner, so high along it, lies deep. */
 HOT int lies_deep(const difference *d, real height)
 {
-    const real l = root(dot(d->c, d->c)), far = far_out_of(d);
+    const real l = root(dot(d->c, d->c)), far = whole_of(d);
     return l > UNIT * far && -height > l * far / 8;
 }
 
@@ -307,7 +307,7 @@ HOT enum glanced dig_from(search *q, int hulls, int of_all, real height, vec fir
     const vertex first = q->s.slot[0];
     const duos within = duos_mapped(&d->maps, duos_of(inner_point(&d->a, hulls), inner_point(&d->b, hulls)));
     const vec in_a = vec_of_a(within), o = corner_at_spots(d, within);
-    const real far = far_out_of(d), by = hulls ? leveler(far) : 1, l = root(dot(d->c, d->c));
+    const real far = whole_of(d), by = hulls ? leveler(far) : 1, l = root(dot(d->c, d->c));
     vec way[FAN + 1], at[DIM + 1] = {first_at, first_at, first_at, in_a};
     tetra t = {.w = {mul(first.w, by), o, o, mul(o, by)}};
     int across = 1, all = DIM;

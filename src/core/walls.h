@@ -100,28 +100,28 @@ static void share_along(const arms *m, unsigned in_line, vec g, vec p, real s[AX
 
 #if DIM == 3
 /* A direction in a facet's plane, seen along an axis of the frame. */
-typedef struct flat {
+typedef struct shadow {
     real x, y;
-} flat;
+} shadow;
 
-static inline flat flat_of(vec a, int drop) { return (flat){a.c[drop == 0], a.c[drop == 2 ? 1 : 2]}; }
+static inline shadow shadow_of(vec a, int drop) { return (shadow){a.c[drop == 0], a.c[drop == 2 ? 1 : 2]}; }
 
-static inline real cross_flat(flat a, flat b) { return a.x * b.y - a.y * b.x; }
+static inline real cross_shadows(shadow a, shadow b) { return a.x * b.y - a.y * b.x; }
 
 /* Spreads p among the arms: on the way from the facet's middle to p its rim is met on an edge, and as far as p is on
  * that way, so far each arm leads toward its end there. */
 static void share_in_plane(const arms *m, int drop, vec p, real s[AXES])
 {
-    flat arm[AXES];
-    const flat to = flat_of(p, drop);
+    shadow arm[AXES];
+    const shadow to = shadow_of(p, drop);
     int edge = -1;
     real most = 0, side = 0;
     unsigned in_line = 0;
-    for (int k = 0; k < m->n; k++) arm[k] = flat_of(m->arm[k], drop);
+    for (int k = 0; k < m->n; k++) arm[k] = shadow_of(m->arm[k], drop);
     for (int e = 0; e < m->n; e++) {
-        const real off = cross_flat(to, arm[e]);
+        const real off = cross_shadows(to, arm[e]);
         real width = 0;
-        for (int k = 0; k < m->n; k++) width += size(cross_flat(arm[k], arm[e]));
+        for (int k = 0; k < m->n; k++) width += size(cross_shadows(arm[k], arm[e]));
         if (!(width > 0) || !(edge < 0 || size(off) > most * width)) continue;
         most = size(off) / width;
         side = off;
@@ -130,7 +130,7 @@ static void share_in_plane(const arms *m, int drop, vec p, real s[AXES])
     if (edge < 0) return;
     most = smaller(most, 1);
     for (int k = 0; k < m->n; k++) {
-        const real off = cross_flat(arm[k], arm[edge]);
+        const real off = cross_shadows(arm[k], arm[edge]);
         if (!(size(off) > 16 * UNIT * (spread(m->arm[k]) * spread(m->arm[edge])))) {
             in_line |= 1u << k;
             continue;
@@ -185,10 +185,10 @@ static real drop_of(const zonotope *z, const wall *f, vec p)
 /* Where only two axes lead to p, and it is right under the origin, its height is the facet's however n is turned. */
 static void share_among_two(const arms *m, int drop, vec p, real s[AXES])
 {
-    const flat a = flat_of(m->arm[0], drop), b = flat_of(m->arm[1], drop), to = flat_of(p, drop);
-    const real whole = cross_flat(a, b);
-    s[m->axis[0]] = larger(-1, smaller(1, cross_flat(to, b) / whole));
-    s[m->axis[1]] = larger(-1, smaller(1, cross_flat(a, to) / whole));
+    const shadow a = shadow_of(m->arm[0], drop), b = shadow_of(m->arm[1], drop), to = shadow_of(p, drop);
+    const real whole = cross_shadows(a, b);
+    s[m->axis[0]] = larger(-1, smaller(1, cross_shadows(to, b) / whole));
+    s[m->axis[1]] = larger(-1, smaller(1, cross_shadows(a, to) / whole));
 }
 #endif
 
