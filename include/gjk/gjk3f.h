@@ -118,8 +118,9 @@ GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gj
  * the depth, which is the length of the shortest way that one of them can be moved to where they only touch. One number
  * that passes through 0 without a break: moving b by -value * normal makes the shapes touch. The normal is that of the
  * closest pair. Overlapping, point_a is the point of a deepest in b along the normal, point_b that of b deepest in a,
- * and point_a - point_b is depth * normal. Of round shapes the points are off sideways by about the
- * root of what the bracket is wide, and with GJK_LIMIT they go with the polytope as far as it got.
+ * and point_a - point_b is depth * normal. Of round shapes the points are off sideways by about the root of what the
+ * bracket is wide, and with GJK_LIMIT they go with the polytope as far as it got. Where a tolerance is so loose that
+ * the bracket holds 0 they are points of the two, and no more.
  *
  * The depth is sought by a polytope that grows within the difference of the shapes. Its corners have a workspace; where
  * that is full, those that can no longer matter make room, and where there are none the bracket holds all the same,
