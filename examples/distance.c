@@ -6,7 +6,7 @@ int main(void)
 {
     const gjk3_box cube = {{1, 1, 1}};
     const gjk3_segment rod = {{{0, 0, -1}, {0, 0, 1}}};
-    const gjk3_pose leaning = {{0.8, 0, -0.6, 0, 1, 0, 0.6, 0, 0.8}, {4, 0, 0}};
+    const gjk3_pose leaning = {{0.8, 0, -0.6, 0, 1, 0, 0.6, 0, 0.8}, {4, 0, 0}}; /* a map by rows, a position */
 
     const gjk3_shape a = {gjk3_support_box, &cube, NULL, 0};
     const gjk3_shape b = {gjk3_support_segment, &rod, &leaning, 0.5}; /* a segment grown by a ball: a capsule */
