@@ -193,7 +193,7 @@ static const options *take_steps_off(options *own, const options *o, int steps)
  * were spent. */
 static inline int meet_at_sight(search *q, const shape *a, const shape *b, const options *o, result *r, int spent[2])
 {
-    if (!SHORTCUTS) return q->listed = 0;
+    if (!SHORTCUTS) return 0;
     if (q->glanced == UNTRIED && list_both(q, a, b, o) && !are_thin(&q->d) && !are_planar(&q->d)) {
         if (!lender_of(a, b, o, 1))
             q->glanced = are_boxes(a, b) ? glance_at_boxes(q, (int)steps_of(o), a, b, r) : glance(q, a, b, r);
@@ -229,7 +229,7 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
 
     enum end end = STILL;
     const int hers =
-        (!q->listed && spent[1] > 0) || q->glanced == CLOUDED || q->glanced == AIMED; /* float can't tell */
+        (!are_listed(q) && spent[1] > 0) || q->glanced == CLOUDED || q->glanced == AIMED; /* float can't tell */
     if (!(HAS_SISTER && hers && ask_sister_alone(q, a, b, o, &g, &r)) && !tell_trail(q, a, b, o, &g, &r)) {
         int bad = reply_to(q, a, b, o, &g, &end, &r);
         if (bad) return bad;
