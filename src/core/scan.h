@@ -35,13 +35,18 @@ HOT ways ways_of(vec d)
 }
 
 /* How high LANES points are: what dot says of each. */
-HOT lanes heights(const real *x, size_t step, const ways *d)
+HOT lanes heights_there(const lanes c[DIM], const ways *d)
 {
-    lanes c[DIM], r;
-    load_lanes(x, step, c);
-    r = products(c[0], d->c[0]);
+    lanes r = products(c[0], d->c[0]);
     REST(r = sums(r, products(c[i], d->c[i])));
     return r;
+}
+
+HOT lanes heights(const real *x, size_t step, const ways *d)
+{
+    lanes c[DIM];
+    load_lanes(x, step, c);
+    return heights_there(c, d);
 }
 
 /* ---- ties ---- */
@@ -323,6 +328,21 @@ HOT size_t farthest_of_eight(const list *l, size_t step, vec d, enum care care)
     const eight e = look_at_eight(l->v, step, &way);
     if (is_of_strangers(care) && !are_finite(add_eight(&e, in_all(0))) && !are_numbers(l, d)) return EIGHT;
     return choose_highest(l, EIGHT, d, &e, largest_in_all(highest_of_eight(&e)), care);
+}
+
+/* Of eight along two directions, in haste, as their coordinates are loaded once. */
+HOT void farthest_of_eight_twice(const list *l, size_t step, const vec d[2], size_t at[2])
+{
+    const ways first = ways_of(d[0]), second = ways_of(d[1]);
+    eight e[2];
+    for (size_t i = 0; i < EIGHT / LANES; i++) {
+        lanes c[DIM];
+        load_lanes(l->v + i * LANES * step, step, c);
+        e[0].high[i] = heights_there(c, &first);
+        e[1].high[i] = heights_there(c, &second);
+    }
+    for (int k = 0; k < 2; k++)
+        at[k] = choose_highest(l, EIGHT, d[k], &e[k], largest_in_all(highest_of_eight(&e[k])), HASTY);
 }
 
 HOT size_t farthest_in_eights(const list *l, size_t step, vec d, enum care care)

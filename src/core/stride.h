@@ -85,6 +85,16 @@ HOT int point_of_hull(const body *k, vec dir, enum care care, vec *x)
     return fits(k, *x);
 }
 
+/* What the corner of these two shows along the way. */
+HOT void see_corner(const difference *d, vec way, duos x, evidence *e)
+{
+    const duos at = duos_mapped(&d->maps, x);
+    e->a = vec_of_a(at);
+    e->b = vec_of_b(at);
+    e->w = corner_at_spots(d, at);
+    e->height = dot(way, e->w);
+}
+
 /* The corner least along the way, in haste, and what it shows; hulls: both are, at the door. 0: it is none. */
 HOT int find_corner(difference *d, int hulls, vec way, vertex *p, evidence *e)
 {
@@ -99,11 +109,8 @@ HOT int find_corner(difference *d, int hulls, vec way, vertex *p, evidence *e)
             return 0;
     }
     const vec x = hulls ? p->x : mul(p->x, d->a.grain), y = hulls ? p->y : mul(p->y, d->b.grain);
-    const duos at = duos_mapped(&d->maps, duos_of(x, y));
-    e->a = vec_of_a(at);
-    e->b = vec_of_b(at);
-    p->w = e->w = corner_at_spots(d, at);
-    e->height = dot(way, e->w);
+    see_corner(d, way, duos_of(x, y), e);
+    p->w = e->w;
     return 1;
 }
 
@@ -291,6 +298,30 @@ HOT int across_from(const real w[DIM + 1])
     return w[k] < w[i] ? k : i;
 }
 
+/* A hull's points along the fan's directions as it sees them; of eight in one look. 0: they are none. */
+HOT int points_of_fan(const body *k, const vec dir[FAN], vec x[FAN])
+{
+    if (k->list.count != EIGHT) return point_of_hull(k, dir[0], HASTY, &x[0]) && point_of_hull(k, dir[1], HASTY, &x[1]);
+    size_t at[FAN];
+    farthest_of_eight_twice(&k->list, DIM, dir, at);
+    for (int i = 0; i < FAN; i++) x[i] = nth_of(&k->list, at[i]);
+    return fits(k, x[0]) && fits(k, x[1]);
+}
+
+/* The corners along a fan of ways, of hulls, as find_corner has them one after another. 0: they are none. */
+HOT int find_fan(const difference *d, const vec way[FAN], evidence e[FAN])
+{
+    vec of_a[FAN], of_b[FAN], x[FAN], y[FAN];
+    for (int i = 0; i < FAN; i++) {
+        const duos dirs = duos_pulled(&d->maps, duos_of(mul(way[i], -1), way[i]));
+        of_a[i] = seen_or_first(vec_of_a(dirs));
+        of_b[i] = seen_or_first(vec_of_b(dirs));
+    }
+    if (!points_of_fan(&d->a, of_a, x) || !points_of_fan(&d->b, of_b, y)) return 0;
+    for (int i = 0; i < FAN; i++) see_corner(d, way[i], duos_of(x[i], y[i]), &e[i]);
+    return 1;
+}
+
 /* Whether there is a line of centres, and the first corner, so high along it, lies deep. */
 HOT int lies_deep(const difference *d, real height)
 {
@@ -311,18 +342,21 @@ HOT enum glanced dig_from(search *q, int hulls, int of_all, real height, vec fir
     vec way[FAN + 1], at[DIM + 1] = {first_at, first_at, first_at, in_a};
     tetra t = {.w = {mul(first.w, by), o, o, mul(o, by)}};
     int across = 1, all = DIM;
+    evidence shown[FAN + 1];
     q->dug = 0;
     if (!(dot(t.w[DIM], t.w[DIM]) > UNIT * UNIT)) return IN_VAIN; /* it gives no direction */
     if (!spread_fan(t.w[DIM], t.w[0], way)) return IN_VAIN;
+    if (hulls && !find_fan(d, way, shown)) return UNCLEAR;
     for (;;) {
-        const vec v = way[q->dug < FAN ? q->dug : FAN];
-        evidence e;
+        const int now = q->dug < FAN ? q->dug : FAN;
+        evidence *e = &shown[now];
         vertex own, *p = hulls ? &own : &q->s.slot[across];
-        if (!find_corner(d, hulls, v, p, &e)) return UNCLEAR;
+        if (hulls && now < FAN) d->calls += 2;
+        else if (!find_corner(d, hulls, way[now], p, e)) return UNCLEAR;
         q->steps = 1 + q->dug++;
-        if (of_all && tell_corner(q, &e, v, a, b, r)) return TELLING;
-        t.w[across] = mul(e.w, by);
-        at[across] = e.a;
+        if (of_all && tell_corner(q, e, way[now], a, b, r)) return TELLING;
+        t.w[across] = mul(e->w, by);
+        at[across] = e->a;
         if (q->dug < FAN) {
             across++;
             continue;
