@@ -87,7 +87,7 @@ typedef struct gjk2f_result {
     float value;        /* the answer, inside the bracket */
     float lower, upper; /* proven */
     float point_a[2], point_b[2];
-    float normal[2]; /* unit, from a to b, always: the direction that realises lower */
+    float normal[2]; /* unit, from a to b, always; where lower is not 0, the direction that realises it */
     int32_t status;
     int32_t steps;    /* of the search that answered */
     int32_t supports; /* support calls, of both shapes, and of a warm start given up */

@@ -33,7 +33,7 @@ class Result(NamedTuple):
     """... meeting, they are one and the same point of both, by `intersect` to within its bracket; by `penetration` that
     of a deepest in b, and that of b deepest in a."""
     normal: tuple[float, ...]
-    """Unit, from a to b, always: the direction that realises lower."""
+    """Unit, from a to b, always; where lower is not 0, the direction that realises it."""
     status: Status
     steps: int
     """Steps taken. A step is one support call on each shape."""
