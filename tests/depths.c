@@ -1601,6 +1601,55 @@ static void last_places_of_depths(void **state)
     assert_int_equal(l.settled, l.pairs);
 }
 
+/* Corners on a grid or not, under a map that flattens them all but for its rounding, or just as they are. */
+static void draw_flattened(draws *d, body *b, int flat)
+{
+    const int grid = below(d, 2);
+    real along[DIM], of[DIM];
+    start_body(b, below(d, 3) ? POINTS : BOX);
+    b->count = b->kind == POINTS ? 2 + below(d, 11) : 0;
+    for (int i = 0; i < DIM; i++) {
+        b->half[i] = (real)(grid ? (double)below(d, 5) / 4 : between(d, 0, 1));
+        along[i] = (real)between(d, -1, 1);
+        of[i] = (real)between(d, -1, 1);
+        b->pose.p[i] = (real)(grid ? (double)(below(d, 9) - 4) / 16 : between(d, -0.3, 0.3));
+    }
+    for (int k = 0; k < b->count; k++) {
+        for (int i = 0; i < DIM; i++) {
+            b->v[k][i] = (real)(grid ? (double)(below(d, 9) - 4) / 4 : between(d, -1, 1));
+        }
+    }
+    for (int i = 0; i < DIM * DIM && flat; i++) {
+        b->pose.m[i] = along[i / DIM] * of[i % DIM];
+    }
+}
+
+/* The points go with the depth: as far from each other as that, along the normal. */
+static void flattened_to_the_last_place(void **state)
+{
+    V(options) o = default_options();
+    long overlaps = 0;
+    (void)state;
+    o.tight = 1;
+    p = &drawn;
+    for (at = 0; at < 50 * pairs_per_family; at++) {
+        V(result) r;
+        double gap = 0;
+        draws d = draws_from(seed, 1011, (uint64_t)at);
+        draw_flattened(&d, &drawn.a, below(&d, 4) == 0);
+        draw_flattened(&d, &drawn.b, 1);
+        bind_pair(&drawn);
+        ask(&o, &r);
+        for (int i = 0; i < DIM; i++) {
+            gap = fmax(gap, fabs((double)r.point_a[i] - (double)r.point_b[i] + (double)r.value * (double)r.normal[i]));
+        }
+        overlaps += r.upper < 0;
+        expect_answer("flattened, and the points are not as deep as the value says", &r,
+                      !(r.upper < 0) || gap <= POINT_ERROR * U * span_of_pair(&p->a, &p->b) + 2 * width_of(&r));
+    }
+    assert_true(overlaps > at / 4);
+}
+
 /* Bodies in one plane: they meet, and are 0 deep; with radii, these. And the same lifted off. */
 static void expect_flat(real radius_a, real radius_b, real off)
 {
@@ -2237,6 +2286,7 @@ int main(int argc, char **argv)
 #endif
         cmocka_unit_test(small_cores),
         cmocka_unit_test(last_places_of_depths),
+        cmocka_unit_test(flattened_to_the_last_place),
         cmocka_unit_test(flat_pairs),
         cmocka_unit_test(uneven),
         cmocka_unit_test(paths),

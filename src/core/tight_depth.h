@@ -178,6 +178,10 @@ static void settle_on(depth *d, finish *f, enum end grown, enum end *end)
     }
     d->normal = rough(&f->way);
     d->normal = mul(d->normal, 1 / length(d->normal));
+    if (d->floor) { /* for the points, what is level with it */
+        d->floor->n = d->normal;
+        d->floor->height = least_height(&d->p, d->floor, d->normal);
+    }
 }
 
 /* From that tip of the polytope on, of which nothing else is left then. */
