@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x5193caa18a1ef69f, 0x16ccd669bc786c3c, 0x327d97090dad7166};
+static const uint64_t known[3] = {0x5193caa18a1ef69f, 0x16ccd669bc786c3c, 0xb0b550d07149ceda};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xa957820c31ad58c5, 0xab9f20c5a59876d1};
+static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xa957820c31ad58c5, 0x4ec0287b201eeaac};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x6bf3e15c6ffe9977, 0x27f5406e2be30179, 0x42836af3669ce04d};
+static const uint64_t known[3] = {0x6bf3e15c6ffe9977, 0x27f5406e2be30179, 0x8c51ba3662f59843};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0x0b1e15bcb73fb2b1};
+static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0xea1e957905d992c6};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -1110,6 +1110,39 @@ static void looser_takes_no_more_steps(void **state)
     assert_true(deep > pairs_per_family && saved > (VARIANT_FLOAT ? 0 : deep / 4));
 }
 
+/* Whatever ends it, a tolerance or the last step, the points are as far from each other along the normal as the bracket
+ * has it. */
+static void points_within_the_bracket(void **state)
+{
+    long deep = 0, limits = 0;
+    (void)state;
+    p = &drawn;
+    for (at = 0; at < 50 * pairs_per_family; at++) {
+        V(options) o = default_options();
+        V(result) r;
+        double along = 0;
+        draws d = draws_from(seed, 2009, (uint64_t)at);
+        draw_any(&d, &drawn.a, round_kinds[below(&d, ROUND_KINDS)]);
+        draw_any(&d, &drawn.b, round_kinds[below(&d, ROUND_KINDS)]);
+        put_off(&d, between(&d, 0, 0.5));
+        bind_pair(&drawn);
+        o.rel_tol = at % 3 == 0 ? (real)magnitude(&d, -5, 0) : 0;
+        o.abs_tol = at % 3 == 1 ? (real)magnitude(&d, -5, 0) : 0;
+        o.max_steps = at % 3 == 2 ? 1 + (uint32_t)below(&d, 25) : 0;
+        ask(&o, &r);
+        for (int i = 0; i < DIM; i++) {
+            along += ((double)r.point_a[i] - (double)r.point_b[i]) * (double)r.normal[i];
+        }
+        expect_answer("the points are not as deep as the bracket says", &r,
+                      !(r.upper < 0) || (along >= -(double)r.upper - 512 * U * span() &&
+                                         along <= -(double)r.lower + 512 * U * span()));
+        deep += r.upper < 0;
+        limits += r.upper < 0 && r.status == GJK_LIMIT;
+    }
+    printf("%-6s points within: %ld overlap, %ld limits\n", VARIANT, deep, limits);
+    assert_true(deep > at / 4 && limits > at / 100);
+}
+
 /* Needles and plates all but on one spot, asked roughly: the points are as far apart as the bodies are deep, to what
  * the bracket leaves open, and whether they overlap is told whatever is asked. */
 static void plates_roughly(void **state)
@@ -2270,6 +2303,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(round_shapes),
         cmocka_unit_test(round_shapes_roughly),
         cmocka_unit_test(looser_takes_no_more_steps),
+        cmocka_unit_test(points_within_the_bracket),
         cmocka_unit_test(plates_roughly),
         cmocka_unit_test(as_deep_several_ways),
         cmocka_unit_test(as_well_as_hidden),

@@ -42,13 +42,15 @@ enum gjk_status {
     GJK_FLOOR = 2,   /* this arithmetic yields no more: the bracket is wider than asked (or, nothing asked, some times
                       * wider than the rounding of points explains), or straddles contact */
     GJK_LIMIT = 3,   /* stopped at max_steps, or, by penetration, where the workspace was full */
-    GJK_BAD_ARGUMENT =
-        -1,              /* a null pointer; a pose, radius or option that is not finite, or negative where it may not
-                          * be; a radius above a sixteenth of the largest number; options without size or from the future; tight
-                          * above 1; by penetration a workspace              that is misaligned or too small, or bytes of none */
-    GJK_BAD_SUPPORT = -2 /* a support gave a point that is not finite or beyond the reach, or that lies, once placed,
-                          * beyond a quarter of the largest number, or points that no convex set has: the bounds
-                          * crossed; or a ready-made one has no data, or bad sizes */
+    /* a null pointer; a pose, radius or option that is not finite, or negative where it may not be; a radius above a
+     * sixteenth of the largest number; options without size, or from the future: of more than 1024 bytes, or not 0
+     * where nothing is known here; tight above 1; by penetration a workspace that is misaligned or too small, or bytes
+     * of none */
+    GJK_BAD_ARGUMENT = -1,
+    /* a support gave a point that is not finite or beyond the reach, a reach that is none, or a point that lies, once
+     * placed, beyond a quarter of the largest number, or points that no convex set has: the bounds crossed; or a
+     * ready-made one has no data, or bad sizes */
+    GJK_BAD_SUPPORT = -2
 };
 
 /* The library's own version: major * 10000 + minor * 100 + patch. */

@@ -95,12 +95,12 @@ typedef struct gjk3_result {
 
 /* How far apart? 0 where the shapes meet.
  *
- * With options.tight, of sets whose corners are known (points, box, segment, triangle, origin, by the address of these
- * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two wide,
- * contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It holds sums
- * of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 27, but 52 of two boxes and of
- * hulls of up to 64 points, unless it is built with GJK_ALONE. Of a pair that spans more, what is below 1e-115 of its
- * size is left out, and the bracket is wider by that. A library built with GJK_NO_EXACT does without. */
+ * With options.tight, of sets whose corners are known (points, box, segment, triangle, origin, by the address of
+ * these supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket
+ * two wide, contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It
+ * holds sums of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 52, or 27 where it is
+ * built with GJK_ALONE. Of a pair that spans more, what is below 1e-115 of its size is left out, and the bracket is
+ * wider by that. A library built with GJK_NO_EXACT does without. */
 GJK_API int gjk3_distance(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
 
 /* Do they meet? Ends at the first proof. The bracket is of the signed separation, the distance apart or minus
@@ -110,16 +110,17 @@ GJK_API int gjk3_distance(const gjk3_shape *a, const gjk3_shape *b, const gjk3_o
  *   upper == 0   they meet: proven of points, box, segment, triangle and origin, however slightly
  *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
  *                                  status GJK_LIMIT: not found out within max_steps
- * abs_tol, rel_tol and cutoff play no part. It takes no more of the stack than distance. */
+ * abs_tol, rel_tol and cutoff play no part. It takes no more of the stack than is said there. */
 GJK_API int gjk3_intersect(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
 
 /* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else minus
  * the depth, which is the length of the shortest way that one of them can be moved to where they only touch. One number
  * that passes through 0 without a break: moving b by -value * normal makes the shapes touch. The normal is that of the
  * closest pair. Overlapping, point_a is the point of a deepest in b along the normal, point_b that of b deepest in a,
- * and point_a - point_b is depth * normal. Of round shapes the points are off sideways by about the root of what the
- * bracket is wide, and with GJK_LIMIT they go with the polytope as far as it got. Where a tolerance is so loose that
- * the bracket holds 0 they are points of the two, and no more.
+ * and point_a - point_b is depth * normal. However it ends, along the normal they are as far from each other as the
+ * bracket has it; of round shapes they are off sideways, by about the root of the bracket's width times the shapes'
+ * size, more of flat ones, and where GJK_LIMIT ends it by as much as that leaves open. Where a tolerance is so loose
+ * that the bracket holds 0 they are points of the two, and no more.
  *
  * The depth is sought by a polytope that grows within the difference of the shapes. Its corners have a workspace; where
  * that is full, those that can no longer matter make room, and where there are none the bracket holds all the same,

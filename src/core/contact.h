@@ -423,6 +423,26 @@ static real near_of(const depth *d, real upper, enum end end)
     return 2 * value - q->lower;
 }
 
+/* The points that the weights single out are short of the bound from above along the normal, where a tolerance or the
+ * last step has ended the search and left them on a facet that looks aside: they are moved toward the tip that lies
+ * farthest that way. */
+static void reach_out(const depth *d, real upper, real weight[DIM + 1])
+{
+    search *q = d->q;
+    simplex *s = &q->s;
+    const vec x = blend(s, weight, offsetof(vertex, x), 1), y = blend(s, weight, offsetof(vertex, y), 1);
+    const real far = dot(q->normal, corner_of(&q->d, x, y)), more = -upper - far;
+    const tip *top = &d->p.tip[0];
+    for (int k = 1; k < d->p.tips; k++)
+        if (dot(q->normal, d->p.tip[k].w) > dot(q->normal, top->w)) top = &d->p.tip[k];
+    const real most = dot(q->normal, top->w) - far;
+    if (!(more > CHARGED && most > 0) || s->n > DIM || d->p.tips == 0) return;
+    const real share = smaller(more / most, 1);
+    for (int k = 0; k < s->n; k++) weight[k] *= 1 - share;
+    weight[s->n] = share;
+    take_tip(s, top, axis(0, 0));
+}
+
 /* Normal and points of the depth as it is known. The search's points, if the difference is flat to rounding. */
 static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum end *end)
 {
@@ -434,6 +454,7 @@ static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum 
     if (*end == OPEN) turn_to_normal(d);
     if (d->settled || *end == OPEN) hand_over(d, weight);
     else point_out(d, weight);
+    if (!d->settled && (*end == OPEN || d->g->abs_tol > 0 || d->g->rel_tol > 0)) reach_out(d, upper, weight);
 }
 
 /* Grows the surface till nothing lies beyond the lowest facet; how that ended. */
@@ -445,14 +466,21 @@ static enum end grow_surface(depth *d)
     return end;
 }
 
+/* So many steps a surface takes to go around the origin and to grow by as much again. */
+#define REGROWTH (2 * (DIM + 1))
+
 /* What is proven of the surface. Where it is grown, and dips have left the bracket open, as where a tip turned out to
- * be of account after all, it is grown anew without them, which may take more corners. Whether that has closed it. */
+ * be of account after all, it is grown anew without them, if there are steps for that, which may take more corners.
+ * Whether that has closed it. */
 static int prove_grown(depth *d, real *upper, enum end *end)
 {
     const int proven = prove(d, upper);
     const dip *at = lowest_dip(d);
     if (!at || at->far == 0 || is_bounded(d->q, *upper) || is_as_asked(d, d->q->lower, *upper)) return proven;
-    if (d->q->steps >= d->g->max_steps) return proven;
+    if (d->g->max_steps - d->q->steps < REGROWTH) {
+        *end = OPEN;
+        return proven;
+    }
     d->closings = 0;
     *end = do_without_dips(d) ? grow_surface(d) : FAULT;
     return *end != FAULT && prove(d, upper);

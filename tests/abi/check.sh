@@ -3,7 +3,7 @@
 # What a compiled library shows, holds and asks for. NM and READELF name the tools.
 #   check.sh layout RECORD PROGRAM HEADER...   PROGRAM prints RECORD, and RECORD names every struct of the headers
 #   check.sh exports LIST -D|-g LIBRARY   it exports the names in LIST, no more and no fewer (-D: shared, -g: static)
-#   check.sh undefined LIBRARY            it asks its host for square roots and block copies only
+#   check.sh undefined LIBRARY            it asks its host for square roots, block copies and their comparison only
 #   check.sh data OBJECT...               it holds no data that can be written, before or after relocation
 #   check.sh soname NAME LIBRARY          it calls itself NAME and depends on libc and libm only
 set -eu
@@ -31,7 +31,7 @@ exports)
 undefined)
     # The second list is what compilers and the C run-time's start files put into any shared library.
     "$NM" -D --undefined-only "$1" | awk '{ sub(/@.*/, "", $2); print $2 }' |
-        grep -vxE 'sqrtf?|mem(cpy|move|set)' |
+        grep -vxE 'sqrtf?|mem(cpy|move|set|cmp)' |
         grep -vxE '__cxa_finalize|__gmon_start__|_ITM_(de)?registerTMCloneTable|__stack_chk_fail' |
         none 'asked of the host'
     ;;
