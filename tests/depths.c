@@ -1110,8 +1110,53 @@ static void looser_takes_no_more_steps(void **state)
     assert_true(deep > pairs_per_family && saved > (VARIANT_FLOAT ? 0 : deep / 4));
 }
 
-/* Whatever ends it, a tolerance or the last step, the points are as far from each other along the normal as the bracket
- * has it. */
+/* The points are as far from each other along the normal as the bracket has it. */
+static void expect_points_within(const V(result) * r)
+{
+    double along = 0;
+    for (int i = 0; i < DIM; i++) {
+        along += ((double)r->point_a[i] - (double)r->point_b[i]) * (double)r->normal[i];
+    }
+    expect_answer("the points are not as deep as the bracket says", r,
+                  !(r->upper < 0) ||
+                      (along >= -(double)r->upper - 512 * U * span() && along <= -(double)r->lower + 512 * U * span()));
+}
+
+#if DIM == 3
+/* The same where the growth from dips has ended with hardly any steps left to begin anew without them. */
+static void no_steps_for_a_surface(void **state)
+{
+    static const double m[2][9] = {{-0x1.9ce0fc04df1ap-2, -0x1.b28331447337p-1, -0x1.5e9328006ce7dp-2,
+                                    0x1.b1c17c71a5d1ep-3, 0x1.1c13646469808p-2, -0x1.dfcd62c382468p-1,
+                                    0x1.c7d0c3c8b9748p-1, -0x1.cd2a1740c8e4cp-2, 0x1.160f70436c598p-4},
+                                   {-0x1.624732d6ba7b4p-1, -0x1.1da012e1e3e4ep-1, -0x1.d54058e231028p-2,
+                                    0x1.9f7db99cad6d1p-2, 0x1.cbc974341db8cp-3, -0x1.c59f43973412fp-1,
+                                    0x1.31bbb3ddc5f7ep-1, -0x1.99156af3cf835p-1, 0x1.22d916db7d43p-4}};
+    static const double way[3] = {-0x1.30f31a6d3f698p-2, 0x1.180b9c749b46cp-2, 0x1.6aa84ddda4cap-7};
+    V(options) o = default_options();
+    (void)state;
+    start_pair(CONE, CONE);
+    drawn.a.radius = (real)0x1.f000e364dfd1ep-1;
+    drawn.a.half_length = (real)0x1.ba02f13bab515p-7;
+    drawn.b.radius = (real)0x1.77ea730d473cp-1;
+    drawn.b.half_length = (real)0x1.8c86dd59346e2p-1;
+    for (int i = 0; i < 9; i++) {
+        drawn.a.pose.m[i] = (real)m[0][i];
+        drawn.b.pose.m[i] = (real)m[1][i];
+    }
+    for (int i = 0; i < 3; i++) {
+        drawn.b.pose.p[i] = (real)way[i];
+    }
+    bind_pair(&drawn);
+    for (o.max_steps = 1; o.max_steps < 60; o.max_steps++) {
+        V(result) r;
+        ask(&o, &r);
+        expect_points_within(&r);
+    }
+}
+#endif
+
+/* Whatever ends it, a tolerance or the last step. */
 static void points_within_the_bracket(void **state)
 {
     long deep = 0, limits = 0;
@@ -1120,7 +1165,6 @@ static void points_within_the_bracket(void **state)
     for (at = 0; at < 50 * pairs_per_family; at++) {
         V(options) o = default_options();
         V(result) r;
-        double along = 0;
         draws d = draws_from(seed, 2009, (uint64_t)at);
         draw_any(&d, &drawn.a, round_kinds[below(&d, ROUND_KINDS)]);
         draw_any(&d, &drawn.b, round_kinds[below(&d, ROUND_KINDS)]);
@@ -1130,12 +1174,7 @@ static void points_within_the_bracket(void **state)
         o.abs_tol = at % 3 == 1 ? (real)magnitude(&d, -5, 0) : 0;
         o.max_steps = at % 3 == 2 ? 1 + (uint32_t)below(&d, 25) : 0;
         ask(&o, &r);
-        for (int i = 0; i < DIM; i++) {
-            along += ((double)r.point_a[i] - (double)r.point_b[i]) * (double)r.normal[i];
-        }
-        expect_answer("the points are not as deep as the bracket says", &r,
-                      !(r.upper < 0) || (along >= -(double)r.upper - 512 * U * span() &&
-                                         along <= -(double)r.lower + 512 * U * span()));
+        expect_points_within(&r);
         deep += r.upper < 0;
         limits += r.upper < 0 && r.status == GJK_LIMIT;
     }
@@ -2317,6 +2356,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(tips_next_to_axes),
         cmocka_unit_test(cones_in_each_other),
         cmocka_unit_test(cones_in_flat_ones),
+        cmocka_unit_test(no_steps_for_a_surface),
 #endif
         cmocka_unit_test(small_cores),
         cmocka_unit_test(last_places_of_depths),
