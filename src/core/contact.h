@@ -436,7 +436,7 @@ static void reach_out(const depth *d, real upper, real weight[DIM + 1])
     for (int k = 1; k < d->p.tips; k++)
         if (dot(q->normal, d->p.tip[k].w) > dot(q->normal, top->w)) top = &d->p.tip[k];
     const real most = dot(q->normal, top->w) - far;
-    if (!(more > CHARGED && most > 0) || s->n > DIM || d->p.tips == 0) return;
+    if (!(more > CHARGED && most > 0) || s->n > DIM) return;
     const real share = smaller(more / most, 1);
     for (int k = 0; k < s->n; k++) weight[k] *= 1 - share;
     weight[s->n] = share;

@@ -85,7 +85,18 @@ HOT int point_of_hull(const body *k, vec dir, enum care care, vec *x)
     return fits(k, *x);
 }
 
-/* What the corner of these two shows along the way. */
+/* The way to the corner least along it, as the bodies see it. */
+typedef struct sought {
+    vec of_a, of_b;
+} sought;
+
+HOT sought seek_both(const difference *d, vec way)
+{
+    const duos dirs = duos_pulled(&d->maps, duos_of(mul(way, -1), way));
+    return (sought){seen_or_first(vec_of_a(dirs)), seen_or_first(vec_of_b(dirs))};
+}
+
+/* What the corner of these two points shows along the way. */
 HOT void see_corner(const difference *d, vec way, duos x, evidence *e)
 {
     const duos at = duos_mapped(&d->maps, x);
@@ -101,11 +112,10 @@ HOT int find_corner(difference *d, int hulls, vec way, vertex *p, evidence *e)
     if (!hulls && d->wild) {
         if (!ask_with(d, way, HASTY, p)) return 0;
     } else {
-        const duos dirs = duos_pulled(&d->maps, duos_of(mul(way, -1), way));
-        const vec of_a = seen_or_first(vec_of_a(dirs)), of_b = seen_or_first(vec_of_b(dirs));
+        const sought v = seek_both(d, way);
         d->calls += 2;
-        if (hulls ? !point_of_hull(&d->a, of_a, HASTY, &p->x) || !point_of_hull(&d->b, of_b, HASTY, &p->y)
-                  : !point_toward(&d->a, of_a, &p->x) || !point_toward(&d->b, of_b, &p->y))
+        if (hulls ? !point_of_hull(&d->a, v.of_a, HASTY, &p->x) || !point_of_hull(&d->b, v.of_b, HASTY, &p->y)
+                  : !point_toward(&d->a, v.of_a, &p->x) || !point_toward(&d->b, v.of_b, &p->y))
             return 0;
     }
     const vec x = hulls ? p->x : mul(p->x, d->a.grain), y = hulls ? p->y : mul(p->y, d->b.grain);
@@ -313,9 +323,9 @@ HOT int find_fan(const difference *d, const vec way[FAN], evidence e[FAN])
 {
     vec of_a[FAN], of_b[FAN], x[FAN], y[FAN];
     for (int i = 0; i < FAN; i++) {
-        const duos dirs = duos_pulled(&d->maps, duos_of(mul(way[i], -1), way[i]));
-        of_a[i] = seen_or_first(vec_of_a(dirs));
-        of_b[i] = seen_or_first(vec_of_b(dirs));
+        const sought v = seek_both(d, way[i]);
+        of_a[i] = v.of_a;
+        of_b[i] = v.of_b;
     }
     if (!points_of_fan(&d->a, of_a, x) || !points_of_fan(&d->b, of_b, y)) return 0;
     for (int i = 0; i < FAN; i++) see_corner(d, way[i], duos_of(x[i], y[i]), &e[i]);
