@@ -561,6 +561,42 @@ static void points_beyond_their_reach(void **state)
     expect(GJK_BAD_ARGUMENT);
 }
 
+#if DIM == 3
+/* Cubes deep in each other, of one of which a corner lies far out aside, beyond its reach: it is seen by whoever looks
+ * that way, also where that is the second look and both its ways are looked along at once. */
+static void corner_beyond_the_reach_aside(void **state)
+{
+    int refused = 0;
+    (void)state;
+    for (int k = 0; k < 32; k++) {
+        const int corner = k % 8, axis = 1 + k / 8 % 2;
+        body *const lies = k / 16 ? &b : &a;
+        V(result) r;
+        for (int side = 0; side < 2; side++) {
+            body *s = side ? &b : &a;
+            start_body(s, POINTS);
+            s->count = 8;
+            for (int i = 0; i < 8; i++) {
+                for (int j = 0; j < 3; j++) {
+                    s->v[i][j] = (real)(i >> j & 1 ? 1 : -1);
+                }
+            }
+        }
+        b.pose.p[0] = (real)0.5;
+        b.pose.p[1] = (real)0.125;
+        b.pose.p[2] = (real)0.0625;
+        lies->v[corner][axis] *= 8;
+        bind(&a);
+        bind(&b);
+        lies->set.points.reach = (real)1.75;
+        memset(&r, 0, sizeof r);
+        refused += V(intersect)(&a.shape, &b.shape, NULL, &r) == GJK_BAD_SUPPORT;
+    }
+    assert_true(refused >=
+                10); /* nobody looks toward the others; 8 where the second look takes what it sees on trust */
+}
+#endif
+
 /* Nor is a formula of one or two that lie beyond it an answer. */
 static void ends_beyond_their_reach(void **state)
 {
@@ -1103,6 +1139,9 @@ int main(void)
         cmocka_unit_test_setup(singular_poses, fresh),
         cmocka_unit_test_setup(callbacks_not_finite, fresh),
         cmocka_unit_test_setup(points_beyond_their_reach, fresh),
+#if DIM == 3
+        cmocka_unit_test_setup(corner_beyond_the_reach_aside, fresh),
+#endif
         cmocka_unit_test_setup(ends_beyond_their_reach, fresh),
         cmocka_unit_test_setup(callback_writes_nothing, fresh),
         cmocka_unit_test_setup(callback_reaches, fresh),
