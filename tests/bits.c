@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x5193caa18a1ef69f, 0x16ccd669bc786c3c, 0xb0b550d07149ceda};
+static const uint64_t known[3] = {0xf173b546da234e16, 0x2e82a211eff3a3d4, 0x03d1836c544ce677};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x426f1a6c406fb2ed, 0xa957820c31ad58c5, 0x4ec0287b201eeaac};
+static const uint64_t known[3] = {0x200d79724743f855, 0x44d0d62eff8e6fab, 0x542532e8a8af306b};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x6bf3e15c6ffe9977, 0x27f5406e2be30179, 0x8c51ba3662f59843};
+static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0xdbb66ea3ebf51f1f};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x8a9ad4d129335d4d, 0x728d709d640c6ed1, 0xea1e957905d992c6};
+static const uint64_t known[3] = {0xde49ce68ad9b4c4b, 0x1696b69f80cb5f1a, 0x892c0a72a0b3d39d};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

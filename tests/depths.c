@@ -1505,6 +1505,47 @@ static void cones_in_each_other(void **state)
     assert_true(is_share(deep, 4 * pairs_per_family, 0.5) && is_share(tight, deep, 0.98) && steps < 18 * deep);
 }
 
+static void draw_upright(draws *d, body *b, enum kind kind)
+{
+    draw_any(d, b, kind);
+    if (kind == SEGMENT) {
+        b->v[0][DIM - 1] = -b->half_length;
+        b->v[1][DIM - 1] = b->half_length;
+        b->shape.radius = (real)between(d, 0.1, 0.5);
+    }
+}
+
+/* Bodies that stand upright beside and in each other, their axes the same to the bit or to rounding: edges lie on one
+ * another. */
+static void bodies_upright(void **state)
+{
+    static const enum kind kinds[] = {CYLINDER, SEGMENT, DISC, CONE, BALL};
+    long deep = 0, tight = 0, steps = 0;
+    (void)state;
+    for (at = 0; at < 8 * pairs_per_family; at++) {
+        V(result) r;
+        draws d = draws_from(seed, 2019, (uint64_t)at);
+        draw_upright(&d, &drawn.a, kinds[at % 2]);
+        draw_upright(&d, &drawn.b, kinds[at % 2 == 0 ? at / 2 % 5 : at / 2 % 3 * 2]);
+        for (int i = 0; i < DIM * DIM; i++) {
+            drawn.b.pose.m[i] = drawn.a.pose.m[i] * (real)(at % 3 == 0 ? 1 + below(&d, 4) * U : 1);
+        }
+        for (int i = 0; i < DIM; i++) {
+            drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)between(&d, -0.3, 0.3);
+        }
+        bind_pair(&drawn);
+        p = &drawn;
+        find_truth_of_pair();
+        ask_for_truth(NULL, &r);
+        deep += meets;
+        tight += meets && r.status == GJK_OK;
+        steps += meets ? (long)r.steps : 0;
+    }
+    printf("%-6s bodies upright: %ld deep, %ld as tight as rounding, %.1f steps\n", VARIANT, deep, tight,
+           (double)steps / (double)deep);
+    assert_true(is_share(deep, 8 * pairs_per_family, 0.5) && is_share(tight, deep, 0.98) && steps < 12 * deep);
+}
+
 /* The turn to the way out led along the edge of one that is 250 times as wide as tall, and off it by what that bends.
  */
 static void spell_flat_cones(void)
@@ -2355,6 +2396,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(aside_by_next_to_nothing),
         cmocka_unit_test(tips_next_to_axes),
         cmocka_unit_test(cones_in_each_other),
+        cmocka_unit_test(bodies_upright),
         cmocka_unit_test(cones_in_flat_ones),
         cmocka_unit_test(no_steps_for_a_surface),
 #endif

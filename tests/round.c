@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 #include <cmocka.h>
 #include "quad.h"
 #include "splitmix.h"
@@ -24,16 +25,15 @@ static double any_between(double least, double most)
 
 /* ---- pairs ---- */
 
-static support_fn *const kinds[] = {pub(support_ellipsoid), pub(support_ball),
-                                    pub(support_box),
+static support_fn *const kinds[] = {pub(support_ellipsoid), pub(support_ball),     pub(support_box),
 #if DIM == 3
-                                    pub(support_cone),      pub(support_cylinder),
-                                    pub(support_disc)
+                                    pub(support_cone),      pub(support_cylinder), pub(support_disc),
 #endif
-};
+                                    pub(support_segment)};
 #define KINDS (int)(sizeof kinds / sizeof *kinds)
+#define SOLIDS (KINDS - 1) /* all but the segment */
 
-static real numbers[2][3];
+static real numbers[2][2 * DIM];
 static pose poses[2];
 static shape shapes[2];
 static search q;
@@ -61,14 +61,41 @@ static void draw_turn(real m[DIM * DIM])
 #endif
 }
 
-/* Two of these sets, turned, at most so far apart, from middle to middle; not both boxes. */
+/* b is turned as a is: to the bit, or but about the last axis, or to rounding of that. */
+static enum { UNLIKE, THE_SAME, COAXIAL, NEARLY, MANNERS } alike;
+
+static void turn_alike(const real m[DIM * DIM], real turned[DIM * DIM])
+{
+    const double angle = any_between(-1, 1), l = sqrt(1 + angle * angle);
+    const double tilt = alike == NEARLY ? any_between(-24, 24) * UNIT : 0;
+    const double c = alike == COAXIAL ? 1 / l : 1, s = alike == COAXIAL ? angle / l : 0;
+    for (int i = 0; i < DIM; i++) {
+        const double x = m[DIM * i], y = m[DIM * i + 1], z = m[DIM * i + DIM - 1];
+        turned[DIM * i] = (real)(x * c + y * s - z * tilt);
+        turned[DIM * i + 1] = (real)(y * c - x * s);
+        if (DIM == 3) {
+            turned[DIM * i + DIM - 1] = (real)(z + x * tilt);
+        }
+    }
+}
+
+/* Two of these sets, turned, at most so far apart, from middle to middle; not both with corners. */
 static void draw_pair(support_fn *a, support_fn *b, double apart)
 {
     for (int k = 0; k < 2; k++) {
         shapes[k] = (shape){k ? b : a, numbers[k], &poses[k], 0};
-        draw_turn(poses[k].m);
+        if (k && alike) {
+            turn_alike(poses[0].m, poses[1].m);
+        } else {
+            draw_turn(poses[k].m);
+        }
         for (int i = 0; i < 3; i++) {
             numbers[k][i] = any_between(0.1, 1);
+        }
+        if (shapes[k].support == pub(support_segment)) { /* near the last axis where it is to be that of both */
+            for (int i = 0; i < 2 * DIM; i++) {
+                numbers[k][i] = i % DIM < DIM - 1 && alike ? numbers[k][i % DIM] : any_between(-1, 1);
+            }
         }
         for (int i = 0; i < DIM; i++) {
             poses[k].p[i] = any_between(-apart, apart) / 2;
@@ -76,11 +103,16 @@ static void draw_pair(support_fn *a, support_fn *b, double apart)
     }
 }
 
-static void draw_any_pair(int k, double apart)
+static int are_cornered(support_fn *f) { return f == pub(support_box) || f == pub(support_segment); }
+
+/* Of the first so many kinds. */
+static void draw_pair_of(int many, int k, double apart)
 {
-    support_fn *const a = kinds[k % KINDS], *b = kinds[k / KINDS % KINDS];
-    draw_pair(a, a == pub(support_box) && b == a ? kinds[0] : b, apart);
+    support_fn *const a = kinds[k % many], *b = kinds[k / many % many];
+    draw_pair(a, are_cornered(a) && are_cornered(b) ? kinds[0] : b, apart);
 }
+
+static void draw_any_pair(int k, double apart) { draw_pair_of(KINDS, k, apart); }
 
 /* ---- heights of 113 bits ---- */
 
@@ -106,6 +138,13 @@ static quad height_of_set(int which, const quad n[DIM], int sign)
     }
     if (f == pub(support_ball)) {
         return (quad)s[0] * quad_length_of(g, DIM);
+    }
+    if (f == pub(support_segment)) {
+        quad ends[2] = {0};
+        for (int i = 0; i < 2 * DIM; i++) {
+            ends[i / DIM] += (quad)s[i] * g[i % DIM];
+        }
+        return ends[0] > ends[1] ? ends[0] : ends[1];
     }
     for (int i = 0; i < DIM; i++) {
         sum += (quad)s[i] * quad_abs(g[i]);
@@ -166,6 +205,9 @@ static int find_dip(int anywhere)
     if (!open_cold(&q, &shapes[0], &shapes[1], 0) || !know_bulk(&of_both, &q.d, &shapes[0], &shapes[1])) {
         return 0;
     }
+    if (alike) {
+        join_alike(&of_both);
+    }
     EACH(n.c[i] = anywhere ? (real)any_between(-1, 1) : q.d.c.c[i]);
     return find_least(&of_both, mul(n, 1 / length(n)), NULL, &least);
 }
@@ -186,7 +228,30 @@ static void draw_turn_across(double far, double t[ACROSS])
 #endif
 }
 
-/* Along no way nearby is the height of a unit vector less, and the point that shares make is right above the origin. */
+/* Along no way nearby is the height of a unit vector less. */
+static void check_that_it_is_least(void)
+{
+    quad n[DIM];
+    turned_by(&least, (const double[2]){0, 0}, n);
+    const quad here = height_along_way(n) / quad_length_of(n, DIM);
+    for (int i = 0; i < TURNS_EACH; i++) {
+        double t[ACROSS];
+        draw_turn_across(pow(10, any_between(-8, -3)), t);
+        turned_by(&least, t, n);
+        assert_true(height_along_way(n) / quad_length_of(n, DIM) - here > -(quad)(256 * UNIT));
+    }
+}
+
+/* Whether the point that shares make is right above the origin. */
+static int is_point_above(void)
+{
+    vertex p;
+    assert_true(ask(&q.d, mul(least.n, -1), &p));
+    share_out(&of_both, &least, &p);
+    p.w = corner_of(&q.d, p.x, p.y);
+    return length(sub(p.w, mul(least.n, dot(p.w, least.n)))) < 1e-10;
+}
+
 static void it_is_the_least_nearby(void **state)
 {
     long found = 0, exact = 0;
@@ -194,24 +259,11 @@ static void it_is_the_least_nearby(void **state)
     state_of_draws = 1;
     for (int k = 0; k < PAIRS; k++) {
         draw_any_pair(k, 4);
-        if (!find_dip(k % 2)) {
-            continue;
+        if (find_dip(k % 2)) {
+            check_that_it_is_least();
+            found++;
+            exact += is_point_above();
         }
-        quad n[DIM];
-        turned_by(&least, (const double[2]){0, 0}, n);
-        const quad here = height_along_way(n) / quad_length_of(n, DIM);
-        for (int i = 0; i < TURNS_EACH; i++) {
-            double t[ACROSS];
-            draw_turn_across(pow(10, any_between(-8, -3)), t);
-            turned_by(&least, t, n);
-            assert_true(height_along_way(n) / quad_length_of(n, DIM) - here > -(quad)(256 * UNIT));
-        }
-        vertex p;
-        assert_true(ask(&q.d, mul(least.n, -1), &p));
-        share_out(&of_both, &least, &p);
-        p.w = corner_of(&q.d, p.x, p.y);
-        found++;
-        exact += length(sub(p.w, mul(least.n, dot(p.w, least.n)))) < 1e-10;
     }
     printf("the least nearby: found %ld of %d, %ld right above the origin\n", found, PAIRS, exact);
     assert_true(found > PAIRS * 9 / 10 && exact > found * 98 / 100);
@@ -237,6 +289,23 @@ static quad height_by_curvature(const double t[ACROSS], double far, double share
     return h - (quad)least.slope_off * quad_sqrt(square) - (quad)(least.bow_off + least.kink_off / far) * square;
 }
 
+/* How far above that heights are, over the square of how far the turn is, the least of many; never below it. */
+static quad least_above_curvature(void)
+{
+    quad nearest = 1;
+    for (int i = 0; i < TURNS_EACH; i++) {
+        double t[ACROSS];
+        const double far = pow(10, any_between(i % 2 ? -8 : -3, 0));
+        quad n[DIM], above;
+        draw_turn_across(far, t);
+        turned_by(&least, t, n);
+        above = height_along_way(n) - height_by_curvature(t, far, any_between(0, 1));
+        assert_true(above >= 0);
+        nearest = above / (quad)(far * far) < nearest ? above / (quad)(far * far) : nearest;
+    }
+    return nearest;
+}
+
 static void it_is_as_high_as_curvature_says(void **state)
 {
     long told = 0, slants = 0;
@@ -245,25 +314,43 @@ static void it_is_as_high_as_curvature_says(void **state)
     state_of_draws = 2;
     for (int k = 0; k < PAIRS; k++) {
         draw_any_pair(k, 2);
-        if (!find_dip(k % 2)) {
-            continue;
+        if (find_dip(k % 2)) {
+            const quad above = least_above_curvature();
+            nearest = above < nearest ? above : nearest;
+            told++;
+            slants += least.slants != 0;
         }
-        for (int i = 0; i < TURNS_EACH; i++) {
-            double t[ACROSS];
-            const double far = pow(10, any_between(i % 2 ? -8 : -3, 0));
-            quad n[DIM], above;
-            draw_turn_across(far, t);
-            turned_by(&least, t, n);
-            above = height_along_way(n) - height_by_curvature(t, far, any_between(0, 1));
-            assert_true(above >= 0);
-            nearest = above / (quad)(far * far) < nearest ? above / (quad)(far * far) : nearest;
-        }
-        told++;
-        slants += least.slants != 0;
     }
     printf("as curvature says: %ld, of which %ld on a cone's edge; nearest %.2g\n", told, slants, (double)nearest);
     assert_true(told > PAIRS * 8 / 10 && (DIM == 2 || slants > 20) && nearest < 1e-6);
 }
+
+#if DIM == 3
+/* The same where an axis of one is the other's, to rounding or to the bit: limbs that are alike count as one, and what
+ * that is off is charged. */
+static void limbs_that_are_alike_are_one(void **state)
+{
+    static support_fn *const with_axes[] = {pub(support_cylinder), pub(support_disc), pub(support_segment)};
+    long found = 0, joined = 0, exact = 0;
+    (void)state;
+    state_of_draws = 15;
+    for (int k = 0; k < PAIRS; k++) {
+        alike = THE_SAME + k % (MANNERS - THE_SAME);
+        draw_pair(with_axes[k % 3], with_axes[k / 3 % 2], pow(10, any_between(-1, 0.6)));
+        const int told = find_dip(k / 2 % 2);
+        alike = UNLIKE;
+        joined += of_both.joined > 0;
+        if (told) {
+            check_that_it_is_least();
+            least_above_curvature();
+            found++;
+            exact += is_point_above();
+        }
+    }
+    printf("alike: %ld of %d joined, %ld found, %ld right above the origin\n", joined, PAIRS, found, exact);
+    assert_true(joined > PAIRS * 8 / 10 && found > PAIRS * 9 / 10 && exact > found * 98 / 100);
+}
+#endif
 
 #if DIM == 3
 /* Heights are bowed enough around the least for a dip to prove that it is one. */
@@ -448,8 +535,8 @@ static void a_shallow_overlap_needs_few_corners(void **state)
     state_of_draws = 7;
     for (int k = 0; k < 2 * PAIRS; k++) {
         result r = {0}, s = {0};
-        options o = {.size = sizeof o, .max_steps = 3 + (uint32_t)(k / (KINDS * KINDS)) % 8};
-        draw_any_pair(k, 2);
+        options o = {.size = sizeof o, .max_steps = 3 + (uint32_t)(k / (SOLIDS * SOLIDS)) % 8};
+        draw_pair_of(SOLIDS, k, 2);
         for (int i = 0; i < 8 && !(s.value > -2e-3 && s.value < -5e-4); i++) {
             pub(penetration)(&shapes[0], &shapes[1], NULL, &s);
             for (int j = 0; j < DIM; j++) {
@@ -480,6 +567,7 @@ int main(void)
         cmocka_unit_test(it_is_the_least_nearby),
         cmocka_unit_test(it_is_as_high_as_curvature_says),
 #if DIM == 3
+        cmocka_unit_test(limbs_that_are_alike_are_one),
         cmocka_unit_test(edges_of_cones_are_bowed_enough),
 #endif
         cmocka_unit_test(no_way_is_shorter_than_told),

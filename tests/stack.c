@@ -16,13 +16,13 @@
 /* What the header says, in bytes: of distance and intersect, and of penetration; with a workspace of the caller's so
  * much less, but where that is not what takes the most. */
 #if VARIANT_FLOAT
-#define DISTANCE_STACK (DIM == 3 ? 52000 : 36000)
-#define PENETRATION_STACK (DIM == 3 ? 52000 : 36000)
+#define DISTANCE_STACK (DIM == 3 ? 58000 : 39000)
+#define PENETRATION_STACK (DIM == 3 ? 58000 : 39000)
 #define SAVED (DIM == 3 ? 0 : V(workspace_size)(64) / 2)
 #else
-#define DISTANCE_STACK (DIM == 3 ? 50000 : 35000)
+#define DISTANCE_STACK (DIM == 3 ? 54000 : 37000)
 #define SAVED (V(workspace_size)(64) / 2)
-#define PENETRATION_STACK (DIM == 3 ? 90000 : 60000)
+#define PENETRATION_STACK (DIM == 3 ? 95000 : 63000)
 #endif
 
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)

@@ -68,7 +68,7 @@ typedef struct gjk2_cache {
  * All numbers are finite and not negative. */
 typedef struct gjk2_options {
     uint32_t size;            /* sizeof(gjk2_options) in your build; never 0 */
-    uint32_t max_steps;       /* 0: 256. One step is one support call on each shape */
+    uint32_t max_steps;       /* 0: 256. A step is one support call on each shape; more in a warm start given up */
     double abs_tol;           /* stop at upper - lower <= abs_tol + rel_tol * upper; */
     double rel_tol;           /*   both 0: as tight as rounding allows */
     double cutoff;            /* > 0: stop once lower is above it; value may then be as far off as upper */
@@ -98,7 +98,7 @@ typedef struct gjk2_result {
  * With options.tight, of sets whose corners are known (points, box, segment, origin, by the address of these
  * supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket two
  * wide, contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It
- * holds sums of 1280 bits and takes up to 35 KB of stack where the compiler optimises, in float 36, or 22 where it is
+ * holds sums of 1280 bits and takes up to 37 KB of stack where the compiler optimises, in float 39, or 24 where it is
  * built with GJK_ALONE. Of a pair that spans more, what is below 1e-115 of its size is left out, and the bracket is
  * wider by that. A library built with GJK_NO_EXACT does without. */
 GJK_API int gjk2_distance(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
@@ -113,22 +113,24 @@ GJK_API int gjk2_distance(const gjk2_shape *a, const gjk2_shape *b, const gjk2_o
  * abs_tol, rel_tol and cutoff play no part. It takes no more of the stack than is said there. */
 GJK_API int gjk2_intersect(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
 
-/* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else minus
- * the depth, which is the length of the shortest way that one of them can be moved to where they only touch. One number
- * that passes through 0 without a break: moving b by -value * normal makes the shapes touch. The normal is that of the
- * closest pair. Overlapping, point_a is the point of a deepest in b along the normal, point_b that of b deepest in a,
- * and point_a - point_b is depth * normal. However it ends, along the normal they are as far from each other as the
- * bracket has it; of round shapes they are off sideways, by about the root of the bracket's width times the shapes'
- * size, more of flat ones, and where GJK_LIMIT ends it by as much as that leaves open. Where a tolerance is so loose
- * that the bracket holds 0 they are points of the two, and no more.
+/* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else
+ * minus the depth, which is the length of the shortest way that one of them can be moved to where they only touch. One
+ * number that passes through 0 without a break: moving b by -value * normal makes the shapes touch. The normal is that
+ * of the closest pair. Overlapping, point_a is the point of a deepest in b along the normal, point_b that of b deepest
+ * in a, and point_a - point_b is depth * normal. Along the normal they are as far from each other as the bracket has
+ * it, where GJK_LIMIT ends it as far as the few points that it has seen; of round shapes they are off sideways, by
+ * about the root of the bracket's width times the shapes' size, more of flat ones, and where GJK_LIMIT ends it by as
+ * much as that leaves open. Where a tolerance is so loose that the bracket holds 0 they are points of the two, and no
+ * more.
  *
  * The depth is sought by a polygon that grows within the difference of the shapes. Its corners have a workspace; where
  * that is full, those that can no longer matter make room, and where there are none the bracket holds all the same,
- * status GJK_LIMIT. 64 corners do for everyday polygons and round shapes. Radii take no room. cutoff and tolerances are
- * as for distance; of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth
- * down to about the least that the coordinates can spell is right to the last place. It takes up to 60 KB of stack
- * where the compiler optimises, in float 36, its own room for corners included. A library built with GJK_NO_DEPTH
- * has neither this function nor the next. */
+ * status GJK_LIMIT. 64 corners do for everyday polygons, and for round shapes unless a point or an edge of one is all
+ * but in the middle of the other. Radii take no room. cutoff and tolerances are as for distance; of a depth, rel_tol is
+ * a share of -lower, the most that it may be. tight is as there, too: a depth down to about the least that the
+ * coordinates can spell is right to the last place. It takes up to 63 KB of stack where the compiler optimises, in
+ * float 39, its own room for corners included. A library built with GJK_NO_DEPTH has neither this function nor the
+ * next. */
 GJK_API int gjk2_penetration(const gjk2_shape *a, const gjk2_shape *b, const gjk2_options *options, gjk2_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 7264 bytes of stack, in float 4160. Of smooth shapes, which float asks of its larger sister unless it is built with

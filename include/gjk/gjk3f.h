@@ -69,7 +69,7 @@ typedef struct gjk3f_cache {
  * All numbers are finite and not negative. */
 typedef struct gjk3f_options {
     uint32_t size;            /* sizeof(gjk3f_options) in your build; never 0 */
-    uint32_t max_steps;       /* 0: 256. One step is one support call on each shape */
+    uint32_t max_steps;       /* 0: 256. A step is one support call on each shape; more in a warm start given up */
     float abs_tol;           /* stop at upper - lower <= abs_tol + rel_tol * upper; */
     float rel_tol;           /*   both 0: as tight as rounding allows */
     float cutoff;            /* > 0: stop once lower is above it; value may then be as far off as upper */
@@ -99,7 +99,7 @@ typedef struct gjk3f_result {
  * With options.tight, of sets whose corners are known (points, box, segment, triangle, origin, by the address of
  * these supports, under any poses and radii): value is within one unit in the last place of the truth, the bracket
  * two wide, contact exactly 0. Without it the same exact arithmetic steps in where rounding leaves too much open. It
- * holds sums of 1280 bits and takes up to 50 KB of stack where the compiler optimises, in float 52, or 27 where it is
+ * holds sums of 1280 bits and takes up to 54 KB of stack where the compiler optimises, in float 58, or 29 where it is
  * built with GJK_ALONE. Of a pair that spans more, what is below 1e-115 of its size is left out, and the bracket is
  * wider by that. A library built with GJK_NO_EXACT does without. */
 GJK_API int gjk3f_distance(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
@@ -114,24 +114,25 @@ GJK_API int gjk3f_distance(const gjk3f_shape *a, const gjk3f_shape *b, const gjk
  * abs_tol, rel_tol and cutoff play no part. It takes no more of the stack than is said there. */
 GJK_API int gjk3f_intersect(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 
-/* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else minus
- * the depth, which is the length of the shortest way that one of them can be moved to where they only touch. One number
- * that passes through 0 without a break: moving b by -value * normal makes the shapes touch. The normal is that of the
- * closest pair. Overlapping, point_a is the point of a deepest in b along the normal, point_b that of b deepest in a,
- * and point_a - point_b is depth * normal. However it ends, along the normal they are as far from each other as the
- * bracket has it; of round shapes they are off sideways, by about the root of the bracket's width times the shapes'
- * size, more of flat ones, and where GJK_LIMIT ends it by as much as that leaves open. Where a tolerance is so loose
- * that the bracket holds 0 they are points of the two, and no more.
+/* How far apart, or how deep in each other? The signed separation: the distance where the shapes are apart, else
+ * minus the depth, which is the length of the shortest way that one of them can be moved to where they only touch. One
+ * number that passes through 0 without a break: moving b by -value * normal makes the shapes touch. The normal is that
+ * of the closest pair. Overlapping, point_a is the point of a deepest in b along the normal, point_b that of b deepest
+ * in a, and point_a - point_b is depth * normal. Along the normal they are as far from each other as the bracket has
+ * it, where GJK_LIMIT ends it as far as the few points that it has seen; of round shapes they are off sideways, by
+ * about the root of the bracket's width times the shapes' size, more of flat ones, and where GJK_LIMIT ends it by as
+ * much as that leaves open. Where a tolerance is so loose that the bracket holds 0 they are points of the two, and no
+ * more.
  *
  * The depth is sought by a polytope that grows within the difference of the shapes. Its corners have a workspace; where
  * that is full, those that can no longer matter make room, and where there are none the bracket holds all the same,
- * status GJK_LIMIT. 64 corners do for everyday polytopes, and for round shapes unless they are all but concentric: what
- * ends those is max_steps, 10 to 130 steps being usual. Radii take no room. cutoff and tolerances are as for distance;
- * of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth down to about the
- * least that the coordinates can spell is right to the last place, unless the polytope comes to its end in the noise of
- * nearly flat bodies; then the bracket is the usual one. It takes up to 90 KB of stack where the compiler
- * optimises, in float 52, its own room for corners included. A library built with GJK_NO_DEPTH has
- * neither this function nor the next. */
+ * status GJK_LIMIT. 64 corners do for everyday polytopes, and for round shapes unless they are all but concentric, or
+ * on one axis: what ends those is max_steps, 10 to 130 steps being usual. Radii take no room. cutoff and tolerances are
+ * as for distance; of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth
+ * down to about the least that the coordinates can spell is right to the last place, unless the polytope comes to its
+ * end in the noise of nearly flat bodies; then the bracket is the usual one. It takes up to 95 KB of stack where the
+ * compiler optimises, in float 58, its own room for corners included. A library built with GJK_NO_DEPTH has neither
+ * this function nor the next. */
 GJK_API int gjk3f_penetration(const gjk3f_shape *a, const gjk3f_shape *b, const gjk3f_options *options, gjk3f_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 13536 bytes of stack, in float 8352. Of smooth shapes, which float asks of its larger sister unless it is built with

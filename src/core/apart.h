@@ -30,12 +30,12 @@ static void stand_in_dip_of(search *q, const bulk *of, const bent *at, vertex p)
     clear(&q->s);
     share_out(of, at, &p);
     for (int r = 0; r < at->rows; r++)
-        if (of->limb[at->of[r]].rows == 1) put_length(&of->limb[at->of[r]], 0, signed_as(1, at->share[r]), &p);
+        if (of->limb[at->of[r]].rows == 1) put_straight(of, at->of[r], signed_as(1, at->share[r]), &p);
     put_in(q, p);
     for (int r = 0; r < at->rows; r++) {
         vertex other = p;
         if (of->limb[at->of[r]].rows != 1) continue;
-        put_length(&of->limb[at->of[r]], 0, -signed_as(1, at->share[r]), &other);
+        put_straight(of, at->of[r], -signed_as(1, at->share[r]), &other);
         put_in(q, other);
     }
     project(q, 1);
@@ -56,7 +56,8 @@ static APART enum end turn_to_dip(search *q, const shape *a, const shape *b, con
         return BEYOND;
     }
     const real far = length(q->v);
-    if (!ROUND || g->max_steps < 2 || !(far > 0) || !know_first_bulk(q->first_dip, &q->d, a, b)) return OPEN;
+    if (!ROUND || g->max_steps < 2 || !(far > 0) || are_bodies_aligned(&q->d, a, b)) return OPEN;
+    if (!know_first_bulk(q->first_dip, &q->d, a, b)) return OPEN;
     if (!find_least(of, mul(q->v, -1 / far), NULL, at)) return OPEN;
     q->first_dip->found = 1;
     const int deep = g->deep && at->height > 64 * q->d.doubt;

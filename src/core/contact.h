@@ -331,6 +331,16 @@ static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
     return 0;
 }
 
+/* The points are those of one corner. */
+static void stand_at(search *q, const vertex *corner, real weight[DIM + 1])
+{
+    start_over(q);
+    *spare(&q->s) = *corner;
+    q->s.n = 1;
+    weight[0] = 1;
+    q->v = corner->w;
+}
+
 /* Normal and points go with a dip, if one is as low as any direction asked. 0: they don't, and all tips are corners
  * again. */
 static int stand_in_dip(depth *d, real weight[DIM + 1], enum end *end)
@@ -339,11 +349,7 @@ static int stand_in_dip(depth *d, real weight[DIM + 1], enum end *end)
     search *q = d->q;
     const dip *f = dip_to_stand_in(d, &other, end);
     if (f) {
-        start_over(q);
-        *spare(&q->s) = f->corner;
-        q->s.n = 1;
-        weight[0] = 1;
-        q->v = f->corner.w;
+        stand_at(q, &f->corner, weight);
         if (bounds_as_well(q, f)) q->normal = f->n;
         return 1;
     }
@@ -423,24 +429,45 @@ static real near_of(const depth *d, real upper, enum end end)
     return 2 * value - q->lower;
 }
 
+/* Of the tips, and of the corners along the dips that there have been, the one that lies farther along n, if any does.
+ */
+static void take_farther(const depth *d, vec n, tip *top)
+{
+    const int seen = !d->seen ? 0 : d->seen->n > 0 ? d->seen->n : d->seen->held;
+    for (int k = 0; k < d->p.tips; k++)
+        if (dot(n, d->p.tip[k].w) > dot(n, top->w)) *top = d->p.tip[k];
+    for (int i = 0; i < seen; i++)
+        if (dot(n, d->seen->at[i].corner.w) > dot(n, top->w)) *top = tip_of(&d->seen->at[i].corner);
+}
+
 /* The points that the weights single out are short of the bound from above along the normal, where a tolerance or the
  * last step has ended the search and left them on a facet that looks aside: they are moved toward the tip that lies
  * farthest that way. */
 static void reach_out(const depth *d, real upper, real weight[DIM + 1])
 {
     search *q = d->q;
-    simplex *s = &q->s;
-    const vec x = blend(s, weight, offsetof(vertex, x), 1), y = blend(s, weight, offsetof(vertex, y), 1);
-    const real far = dot(q->normal, corner_of(&q->d, x, y)), more = -upper - far;
-    const tip *top = &d->p.tip[0];
-    for (int k = 1; k < d->p.tips; k++)
-        if (dot(q->normal, d->p.tip[k].w) > dot(q->normal, top->w)) top = &d->p.tip[k];
-    const real most = dot(q->normal, top->w) - far;
-    if (!(more > CHARGED && most > 0) || s->n > DIM) return;
-    const real share = smaller(more / most, 1);
-    for (int k = 0; k < s->n; k++) weight[k] *= 1 - share;
-    weight[s->n] = share;
-    take_tip(s, top, axis(0, 0));
+    vertex at = {.x = blend(&q->s, weight, offsetof(vertex, x), 1), .y = blend(&q->s, weight, offsetof(vertex, y), 1)};
+    at.w = corner_of(&q->d, at.x, at.y);
+    const tip here = tip_of(&at);
+    tip top = here;
+    take_farther(d, q->normal, &top);
+    const real far = dot(q->normal, here.w), more = -upper - far, most = dot(q->normal, top.w) - far;
+    if (!(more > CHARGED && most > 0)) return;
+    start_over(q);
+    take_tip(&q->s, &here, axis(0, 0));
+    take_tip(&q->s, &top, axis(0, 0));
+    weight[1] = smaller(more / most, 1);
+    weight[0] = 1 - weight[1];
+}
+
+/* Steps have ended before there was a surface, and the bound from above is what an ellipsoid proves of all ways: normal
+ * and points go with its dip, if that bounds as well as what was asked before. */
+static void stand_where_held(search *q, const dip *f, real weight[DIM + 1])
+{
+    if (!(f->below >= q->lower)) return;
+    q->lower = f->below;
+    q->normal = f->n;
+    stand_at(q, &f->corner, weight);
 }
 
 /* Normal and points of the depth as it is known. The search's points, if the difference is flat to rounding. */
@@ -449,6 +476,7 @@ static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum 
     search *q = d->q;
     d->near = near_of(d, upper, *end);
     if (d->settled) q->normal = d->normal;
+    if (flat && *end == OPEN) reach_out(d, upper, weight);
     if (flat) return;
     if (stand_in_dip(d, weight, end) || *end == FAULT || !d->floor) return;
     if (*end == OPEN) turn_to_normal(d);
@@ -509,7 +537,10 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.tried = REAL_MAX;
     own.held = 0;
     own.first = d->q->first_dip;
-    if (!g->exact && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) d->dips = &own;
+    if (!g->exact && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) {
+        if (!own.first->found) join_alike(&own.first->bulk); /* where a dip was looked for there were none */
+        d->seen = d->dips = &own;
+    }
     d->known[0] = outline_of(d->a);
     d->known[1] = outline_of(d->b);
     d->p.whole = &d->q->d;
@@ -522,6 +553,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (EXACT && end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     const int proven = prove_grown(d, upper, &end), open = g->exact && end == STILL && is_open(d, proven, *upper);
     if (end == FAULT) return end;
+    if (flat && own.held) stand_where_held(d->q, &own.at[0], weight);
     point_to(d, *upper, weight, flat, &end);
     if (EXACT && (g->tight || open) && !d->settled && end != FAULT && d->floor && d->q->steps < g->max_steps &&
         settle_anew(d, &end) == STILL) {

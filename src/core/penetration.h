@@ -37,13 +37,14 @@ typedef struct depth {
     real known_off;   /*   so far off them at most */
     const goal *g;
     polytope p;
-    facet *floor;  /* the lowest facet, at the end */
-    tally dropped; /* of facets that the surface has but the polytope no longer */
-    dips *dips;    /* NULL: it is not known what heights are made of */
-    vec along;     /* the direction asked last, of known corners to all digits, */
-    real below;    /*   and the bound from below that it gave */
-    real least;    /* the least height seen of A - B, by rounded numbers, */
-    vec least_way; /*   of known corners also the way along which, and the corner there */
+    facet *floor;     /* the lowest facet, at the end */
+    tally dropped;    /* of facets that the surface has but the polytope no longer */
+    dips *dips;       /* NULL: it is not known what heights are made of, or done without; */
+    const dips *seen; /*   those that there have been, all the same */
+    vec along;        /* the direction asked last, of known corners to all digits, */
+    real below;       /*   and the bound from below that it gave */
+    real least;       /* the least height seen of A - B, by rounded numbers, */
+    vec least_way;    /*   of known corners also the way along which, and the corner there */
     vec least_at;
     int closings;       /* so often the lowest facet has been as good as rounding can prove */
     outlook sight;      /* and what is looked along */

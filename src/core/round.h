@@ -21,16 +21,21 @@ typedef struct limb {
     int partial;     /* a cone's */
     vec lean;
     real size;       /* bounds |L| */
+    real aside;      /* so much of what is joined to it may lead aside from its axis or plane, */
+    real askew;      /*   and in all be off it but for its length */
     real vague;      /* what counts for no more than that may be of either sign; of a round one that is no cone's all */
     real steep;      /* of a cone's, and |lean| */
-    int of_b, first; /* the body's axes that it is made of, from that on */
-    real length[DIM]; /* along these, in the body's own unit; of a cone's also half its length, beside these */
+    int of_b, first; /* the body's axes that it is made of, from that on; */
+    real length[DIM]; /*   along these, in the body's own unit; of a cone's also half its length, beside these */
+    int stick;        /* or a segment's: */
+    vec half, center; /*   half the way to its second end, and the middle between these, in that unit, too */
+    int joined, back; /* to this limb of the other body, and the other way */
 } limb;
 
 /* What the heights of A - B are made of, in the frame: middle.n, and its limbs'. */
 typedef struct bulk {
     limb limb[MOST_LIMBS];
-    int limbs;
+    int limbs, joined; /* so many count; and behind them are those that count with these; below 0: not yet looked for */
     vec middle;
 } bulk;
 
@@ -44,6 +49,9 @@ typedef struct stand {
 
 static inline stand stand_of(const body *k) { return (stand){k->posed ? k->m : NULL, k->unit, k->grain}; }
 
+/* Where a way or a point in the body's own unit, from where it is posed, lies in the frame. */
+static vec in_frame(const stand *k, vec x) { return mul(k->m ? map(k->m, x) : x, k->grain); }
+
 /* Where the body's axis leads, by its map. */
 static vec axis_by_map(const stand *k, int at)
 {
@@ -55,28 +63,57 @@ static vec axis_by_map(const stand *k, int at)
 /* The axis, so long, in the frame. */
 static vec axis_in_frame(const stand *k, int at, real size) { return mul(axis_by_map(k, at), size * k->grain); }
 
-/* The body's axes from the first on, so many, each as long as it says. Of no length they add nothing. */
+/* What its rows are, where these are known. */
+static void measure_limb(limb *l)
+{
+    real square = 0;
+    for (int r = 0; r < l->rows; r++) square += dot(l->row[r], l->row[r]);
+    for (int i = 0; i < DIM && l->rows > 1; i++) {
+        l->square[i] = mul(l->row[0], l->row[0].c[i]);
+        for (int r = 1; r < l->rows; r++) l->square[i] = add(l->square[i], mul(l->row[r], l->row[r].c[i]));
+    }
+    l->size = root(square) * (1 + 16 * UNIT);
+    l->vague = l->rows > 1 ? REAL_MAX : 64 * UNIT * l->size;
+}
+
+/* Takes in the limb that has been put in after the last, its rows there, so many. Of no length they add nothing. */
+static void keep_limb(bulk *b, int rows)
+{
+    limb *l = &b->limb[b->limbs];
+    for (int r = rows; r < DIM; r++) l->row[r] = axis(0, 0);
+    l->rows = rows;
+    l->partial = l->back = 0;
+    l->aside = l->askew = 0;
+    measure_limb(l);
+    b->limbs += l->size > 0;
+}
+
+/* The body's axes from the first on, so many, each as long as it says. */
 static void add_limb(bulk *b, const stand *k, int of_b, int first, int rows, const real *lengths)
 {
     limb *l = &b->limb[b->limbs];
-    real square = 0;
     l->of_b = of_b;
     l->first = first;
-    l->partial = 0;
+    l->stick = 0;
     for (int r = 0; r < rows; r++) {
         l->length[r] = lengths[r] * k->unit;
         l->row[r] = axis_in_frame(k, first + r, l->length[r]);
-        square += dot(l->row[r], l->row[r]);
     }
-    for (int r = rows; r < DIM; r++) l->row[r] = axis(0, 0);
-    for (int i = 0; i < DIM && rows > 1; i++) {
-        l->square[i] = mul(l->row[0], l->row[0].c[i]);
-        for (int r = 1; r < rows; r++) l->square[i] = add(l->square[i], mul(l->row[r], l->row[r].c[i]));
-    }
-    l->rows = rows;
-    l->size = root(square) * (1 + 16 * UNIT);
-    l->vague = rows > 1 ? REAL_MAX : 64 * UNIT * l->size;
-    b->limbs += l->size > 0;
+    keep_limb(b, rows);
+}
+
+/* A segment. */
+static void add_stick(bulk *b, const stand *k, int of_b, const real *ends)
+{
+    limb *l = &b->limb[b->limbs];
+    const vec first = mul(load(ends), k->unit), last = mul(load(ends + DIM), k->unit);
+    l->of_b = of_b;
+    l->stick = 1;
+    l->half = mul(sub(last, first), (real)0.5);
+    l->center = mul(add(last, first), (real)0.5);
+    l->row[0] = in_frame(k, l->half);
+    b->middle = add(b->middle, mul(in_frame(k, l->center), of_b ? (real)-1 : (real)1));
+    keep_limb(b, 1);
 }
 
 static void add_box(bulk *b, const stand *k, int of_b, const real *half)
@@ -121,6 +158,10 @@ static int add_body(bulk *b, const body *of, int of_b, const shape *s)
         add_box(b, &k, of_b, sizes);
         return 1;
     }
+    if (f == pub(support_segment)) {
+        add_stick(b, &k, of_b, sizes);
+        return 1;
+    }
     if (f == pub(support_ellipsoid) || f == pub(support_ball)) {
         const real radii[3] = {sizes[0], sizes[0], sizes[0]};
         add_limb(b, &k, of_b, 0, DIM, f == pub(support_ball) ? radii : sizes);
@@ -136,50 +177,156 @@ static int add_body(bulk *b, const body *of, int of_b, const shape *s)
     return 0;
 }
 
+#if DIM == 3
+/* Along which a limb has an edge, or square to which: its axis, of any length, and what rounding does to each number of
+ * that, but for the rows' own, of which each has lost 2 roundings of itself. 0: it has none. */
+typedef struct spindle {
+    vec way, off;
+} spindle;
+
+/* The product of vectors of sizes, all added up. */
+static inline vec cross_sizes(vec a, vec b)
+{
+    return (vec){
+        {a.c[1] * b.c[2] + a.c[2] * b.c[1], a.c[2] * b.c[0] + a.c[0] * b.c[2], a.c[0] * b.c[1] + a.c[1] * b.c[0]}};
+}
+
+static inline vec sizes_of_vec(vec a)
+{
+    EACH(a.c[i] = size(a.c[i]));
+    return a;
+}
+
+static spindle spindle_of(const limb *l)
+{
+    const vec none = axis(0, 0), u = unit_size(l->row[0]), v = unit_size(l->row[1]);
+    if (l->rows == 2) return (spindle){cross(u, v), mul(cross_sizes(sizes_of_vec(u), sizes_of_vec(v)), 6 * UNIT)};
+    return (spindle){l->rows == 1 ? u : none, none};
+}
+
+static inline int are_parallel(vec u, vec v)
+{
+    const real along = dot(u, v), most = dot(u, u) * dot(v, v);
+    if (!(2 * along * along > most)) return 0;
+    const vec n = cross(u, v);
+    return dot(n, n) <= 4096 * UNIT * UNIT * most;
+}
+
+/* The sine between two that are parallel so far, at most. */
+static real sine_between(const spindle *k, const spindle *l)
+{
+    const vec u = sizes_of_vec(k->way), v = sizes_of_vec(l->way);
+    const vec off = add(cross_sizes(u, l->off), cross_sizes(k->off, v));
+    const vec sum = add(sizes_of_vec(cross(k->way, l->way)), add(mul(cross_sizes(u, v), 6 * UNIT), off));
+    return length(sum) / (length(u) * length(v)) * (1 + 16 * UNIT);
+}
+
+/* By how much a limb of two rows is no circle, of one. */
+static inline real unevenness(const limb *l)
+{
+    const real xx = dot(l->row[0], l->row[0]), yy = dot(l->row[1], l->row[1]), xy = dot(l->row[0], l->row[1]);
+    return (size(xx - yy) + 2 * size(xy)) / xx + 16 * UNIT;
+}
+
+/* Limbs along one axis are joined if no more of one than that leads aside from the other, and so much that is round is
+ * a circle. */
+#define ASIDE_MOST (32 * UNIT)
+#define UNEVEN_MOST (64 * UNIT)
+
+/* Limb i, which is like j, then is as long as both, and j stands behind those that count, with it. */
+static void join_limbs(bulk *b, int i, int j, real sine, real uneven)
+{
+    limb *l = &b->limb[i];
+    const limb m = b->limb[j];
+    const real times = 1 + m.size / l->size;
+    l->aside = (l->aside + sine * m.size) * (1 + 8 * UNIT);
+    l->askew = (l->askew + l->aside + uneven * m.size) * (1 + 8 * UNIT);
+    for (int r = 0; r < l->rows; r++) l->row[r] = mul(l->row[r], times);
+    measure_limb(l);
+    b->limbs--;
+    b->joined++;
+    for (int k = j; k < b->limbs; k++) b->limb[k] = b->limb[k + 1];
+    limb *last = &b->limb[b->limbs];
+    *last = m;
+    last->joined = i;
+    last->back = dot(l->row[0], m.row[0]) < 0;
+}
+
+/* The same, if they are alike. */
+static int try_join(bulk *b, int i, int j, const spindle *k, const spindle *l)
+{
+    const limb *x = &b->limb[i], *y = &b->limb[j];
+    if (x->rows != y->rows || x->partial || y->partial) return 0;
+    const real sine = sine_between(k, l), uneven = x->rows > 1 ? unevenness(x) + unevenness(y) : 0;
+    if (!(sine <= ASIDE_MOST && uneven <= UNEVEN_MOST)) return 0;
+    join_limbs(b, i, j, sine, uneven);
+    return 1;
+}
+#endif
+
+/* Of limbs of A and of B that are alike, along one axis to rounding, one is made, once. Their edges lie on one another,
+ * and n would be on more than tell their shares. */
+static void join_alike(bulk *b)
+{
+    if (b->joined >= 0) return;
+    b->joined = 0;
+#if DIM == 3
+    spindle at[MOST_LIMBS];
+    for (int j = 0; j < b->limbs; j++) {
+        at[j] = spindle_of(&b->limb[j]);
+        for (int i = 0; i < j; i++) {
+            if (b->limb[i].of_b == b->limb[j].of_b || !are_parallel(at[i].way, at[j].way)) continue;
+            if (!try_join(b, i, j, &at[i], &at[j])) continue;
+            j--;
+            break;
+        }
+    }
+#endif
+}
+
 static int know_bulk(bulk *b, const difference *d, const shape *s, const shape *t)
 {
     b->limbs = 0;
     b->middle = mul(d->c, -1);
+    b->joined = -1;
     return add_body(b, &d->a, 0, s) && add_body(b, &d->b, 1, t);
 }
 
-/* The body's axes along which heights have edges, as bits: of a box all, of a disc its own; of an ellipsoid none. */
-static inline unsigned edged_axes(const shape *s)
+/* The axes of a body, by bits, along which heights have edges; of unit size. How many. */
+static int put_edged(const stand *k, unsigned axes, vec way[DIM])
 {
-#if DIM == 3
+    int n = 0;
+    for (int i = 0; i < DIM; i++)
+        if (axes >> i & 1) way[n++] = unit_size(axis_by_map(k, i));
+    return n;
+}
+
+/* The same of any: of a box all, of a disc its own, of a segment this; of an ellipsoid none. */
+static int put_edged_of(const stand *k, const shape *s, vec way[DIM])
+{
     support_fn *const f = s->support;
-    if (f == pub(support_cylinder) || f == pub(support_disc) || f == pub(support_cone)) return 4;
-#endif
-    return s->support == pub(support_box) ? (1u << DIM) - 1 : 0;
-}
-
-#if DIM == 3
-static inline int are_parallel(vec u, vec v)
-{
-    const real along = dot(u, v), most = dot(u, u) * dot(v, v);
-    if (2 * along * along < most) return 0;
-    const vec n = cross(u, v);
-    return dot(n, n) <= 4096 * UNIT * UNIT * most;
-}
-#endif
-
-/* Whether one of these axes of a body is one of the other's, to rounding: edges and faces may lie on one another then,
- * so that n is on more edges than tell their shares. A few corners find such a place. */
-static int are_aligned(const stand *a, unsigned axes_a, const stand *b, unsigned axes_b)
-{
-#if DIM == 3
-    vec v[DIM];
-    if (axes_a == 0) return 0;
-    for (int j = 0; j < DIM; j++)
-        if (axes_b >> j & 1) v[j] = unit_size(axis_by_map(b, j));
-    for (int i = 0; i < DIM; i++) {
-        if (!(axes_a >> i & 1)) continue;
-        const vec u = unit_size(axis_by_map(a, i));
-        for (int j = 0; j < DIM; j++)
-            if (axes_b >> j & 1 && are_parallel(u, v[j])) return 1;
+    if (f == pub(support_segment)) {
+        const real *ends = s->data;
+        const vec along = sub(mul(load(ends + DIM), k->unit), mul(load(ends), k->unit));
+        way[0] = unit_size(in_frame(k, along));
+        return 1;
     }
+#if DIM == 3
+    if (f == pub(support_cylinder) || f == pub(support_disc) || f == pub(support_cone)) return put_edged(k, 4, way);
+#endif
+    return f == pub(support_box) ? put_edged(k, (1u << DIM) - 1, way) : 0;
+}
+
+/* Whether one of the ways is one of the others, to rounding: edges and faces may lie on one another then, so that n is
+ * on more edges than tell their shares. A few corners find such a place. */
+static int are_aligned(const vec *u, int n, const vec *v, int m)
+{
+#if DIM == 3
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < m; j++)
+            if (are_parallel(u[i], v[j])) return 1;
 #else
-    (void)a, (void)axes_a, (void)b, (void)axes_b;
+    (void)u, (void)n, (void)v, (void)m;
 #endif
     return 0;
 }
@@ -187,7 +334,9 @@ static int are_aligned(const stand *a, unsigned axes_a, const stand *b, unsigned
 static int are_bodies_aligned(const difference *d, const shape *a, const shape *b)
 {
     const stand k = stand_of(&d->a), l = stand_of(&d->b);
-    return are_aligned(&k, edged_axes(a), &l, edged_axes(b));
+    vec u[DIM], v[DIM];
+    const int n = put_edged_of(&k, a, u);
+    return DIM == 3 && n > 0 && are_aligned(u, n, v, put_edged_of(&l, b, v));
 }
 
 /* Whether heights have no edges. */
@@ -205,7 +354,8 @@ static int has_heights(const shape *s)
 #if DIM == 3
     if (f == pub(support_cylinder) || f == pub(support_disc) || f == pub(support_cone)) return 1;
 #endif
-    return f == pub(support_ellipsoid) || f == pub(support_box) || f == pub(support_ball) || f == pub(support_origin);
+    return f == pub(support_ellipsoid) || f == pub(support_ball) || f == pub(support_box) ||
+           f == pub(support_segment) || f == pub(support_origin);
 }
 
 /* Of both, and one is round. */
@@ -292,7 +442,8 @@ static inline void count_off(bent *b, real off, real slop)
 static void add_straight(bent *b, const limb *l, real here, real sign)
 {
     b->height += sign * here;
-    count_off(b, -2 * (sign * here), 16 * UNIT * l->size);
+    count_off(b, -2 * (sign * here), 16 * UNIT * l->size + 2 * l->aside);
+    b->slope_off += 2 * l->aside;
     for (int j = 0; j < ACROSS; j++) b->slope[j] += sign * dot(l->row[0], b->e[j]);
 }
 
@@ -307,8 +458,8 @@ static inline void add_round(bent *b, const limb *l, real far, real times, real 
     }
     for (int i = 0; i < ACROSS; i++)
         for (int j = 0; j <= i; j++) b->bow.c[i][j] += bow * (dot(g[j], b->e[i]) - slope[i] * slope[j]);
-    b->slope_off += 32 * UNIT * share * l->size;
-    b->bow_off += 512 * UNIT * share * share * l->size;
+    b->slope_off += share * (32 * UNIT * l->size + 4 * l->askew);
+    b->bow_off += share * share * (512 * UNIT * l->size + 16 * l->askew);
     b->sway = larger(share, b->sway);
 }
 
@@ -327,10 +478,11 @@ static void add_edge(bent *b, const limb *l, int at)
         b->of[b->rows] = at;
         b->off[b->rows] = dot(l->row[r], b->n);
         for (int j = 0; j < ACROSS; j++) b->d[b->rows][j] = dot(l->row[r], b->e[j]);
-        b->height_off += 2 * (size(b->off[b->rows]) + 8 * UNIT * l->size);
+        b->height_off += 2 * size(b->off[b->rows]);
     }
-    b->slope_off += 32 * UNIT * l->size;
-    b->kink_off += 128 * UNIT * l->size;
+    b->height_off += 16 * UNIT * l->size + 2 * l->aside;
+    b->slope_off += 32 * UNIT * l->size + 4 * l->askew;
+    b->kink_off += 128 * UNIT * l->size + 16 * l->askew;
 }
 
 #if DIM == 3
@@ -821,10 +973,10 @@ typedef struct first_dip {
     int known, found; /* the bulk; and the dip */
 } first_dip;
 
-/* What the heights of A - B are made of. 0: it is not known, or edges may lie on one another. */
+/* What the heights of A - B are made of. 0: it is not known. */
 static int know_first_bulk(first_dip *f, const difference *d, const shape *a, const shape *b)
 {
-    if (ROUND && !f->known) f->known = !are_bodies_aligned(d, a, b) && know_bulk(&f->bulk, d, a, b);
+    if (ROUND && !f->known) f->known = know_bulk(&f->bulk, d, a, b);
     return ROUND && f->known;
 }
 
@@ -832,7 +984,10 @@ static inline void forget_first_dip(first_dip *f) { f->known = f->found = 0; }
 
 static inline void put_length(const limb *l, int k, real share, vertex *c)
 {
-    if (l->of_b) c->y.c[l->first + k] = -share * l->length[k];
+    if (l->stick) {
+        const vec way = mul(l->half, l->of_b ? -share : share);
+        *(l->of_b ? &c->y : &c->x) = add(l->center, way);
+    } else if (l->of_b) c->y.c[l->first + k] = -share * l->length[k];
     else c->x.c[l->first + k] = share * l->length[k];
 }
 
@@ -850,11 +1005,36 @@ static void put_on_cone(const bent *b, const limb *l, int at, vertex *c)
 }
 #endif
 
+/* Of the straight limb that share, of what is joined to it the same. */
+static void put_straight(const bulk *of, int at, real share, vertex *c)
+{
+    put_length(&of->limb[at], 0, share, c);
+    for (int i = of->limbs; i < of->limbs + of->joined; i++)
+        if (of->limb[i].joined == at) put_length(&of->limb[i], 0, of->limb[i].back ? -share : share, c);
+}
+
+/* The same of a round limb, at whose edge n is: of what is joined to it as that is turned along its own axes. */
+static void put_round(const bulk *of, int at, const real share[ACROSS], vertex *c)
+{
+    const limb *l = &of->limb[at];
+    vec p = axis(0, 0);
+    for (int k = 0; k < l->rows; k++) {
+        put_length(l, k, share[k], c);
+        p = add(p, mul(l->row[k], share[k] / l->size));
+    }
+    for (int i = of->limbs; i < of->limbs + of->joined; i++) {
+        const limb *m = &of->limb[i];
+        if (m->joined != at) continue;
+        for (int k = 0; k < m->rows; k++) put_length(m, k, 2 * dot(m->row[k], p) / m->size, c);
+    }
+}
+
 /* Of the bodies' points what straight limbs and edges make: as they count, not as rounding has it. */
 static void share_out(const bulk *of, const bent *b, vertex *c)
 {
     for (int i = 0; i < of->limbs; i++) {
         const limb *l = &of->limb[i];
+        real share[ACROSS] = {0};
         int k = 0;
 #if DIM == 3
         if (l->partial) {
@@ -862,9 +1042,10 @@ static void share_out(const bulk *of, const bent *b, vertex *c)
             continue;
         }
 #endif
-        if (!is_on_edge(b, i) && l->rows == 1) put_length(l, 0, b->sign[i], c);
         for (int r = 0; r < b->rows; r++)
-            if (b->of[r] == i) put_length(l, k++, b->share[r], c);
+            if (b->of[r] == i) share[k++] = b->share[r];
+        if (l->rows == 1) put_straight(of, i, is_on_edge(b, i) ? share[0] : b->sign[i], c);
+        else if (is_on_edge(b, i)) put_round(of, i, share, c);
     }
 }
 

@@ -397,7 +397,10 @@ static int know_heights(bulk *of, const couplet *k, real level)
     const stand a = {k->a.m, 1, level}, b = {k->b.m, 1, level};
     of->limbs = 0;
     of->middle = mul(k->c, -level);
-    if (are_aligned(&a, edged_axes_of(&k->a), &b, edged_axes_of(&k->b))) return 0;
+    vec u[DIM], v[DIM];
+    const int n = put_edged(&a, edged_axes_of(&k->a), u), m = put_edged(&b, edged_axes_of(&k->b), v);
+    of->joined = -1;
+    if (are_aligned(u, n, v, m)) return 0;
     return add_solid(of, &k->a, &a, 0) && add_solid(of, &k->b, &b, 1);
 }
 
