@@ -13,7 +13,8 @@
 
 Every answer is a bracket, lower <= truth <= upper, that holds in floating point and whenever the query stops.
 Lengths are in any one unit; there are no angles. The poses put both shapes in one frame, and points and normals
-come back in that frame. Shapes are immutable; what is given to them is copied.
+come back in that frame. Shapes are immutable; what is given to them is copied. Threads may share shapes, but not a
+cache.
 """
 
 from __future__ import annotations

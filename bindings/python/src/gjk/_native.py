@@ -12,7 +12,7 @@ from ._gjk import ffi, lib
 from .coordinates import numbers
 from .errors import BadArgument
 
-__all__ = ["PRECISIONS", "Native", "Variant", "callback_handle", "raise_from_callback", "variant"]
+__all__ = ["PRECISIONS", "Native", "NativeShape", "Variant", "callback_handle", "raise_from_callback", "variant"]
 
 PRECISIONS = ("double", "float")
 
@@ -75,6 +75,15 @@ class Native(NamedTuple):
     keep: tuple[Any, ...]
     python: bool
     """Whether a query may call back into Python."""
+
+
+class NativeShape(NamedTuple):
+    """A set at its pose and with its radius, as a C struct. `keep` holds what its pointers point to: whoever uses the
+    struct holds all of this as long."""
+
+    struct: Any
+    python: bool
+    keep: tuple[Any, ...]
 
 
 _raised = threading.local()

@@ -100,7 +100,7 @@ class Cache:
             native = self._native[v.name] = v.new("cache")
         held = self._held.get(v.name, ())
         if len(held) > 2:  # a query was refused: of its shapes and those before C remembers some, by address
-            shapes = {shape._native(v)[0].data: shape for shape in held}
+            shapes = {shape._native(v).struct.data: shape for shape in held}
             held = tuple(shapes[data] for data in set(native.data) if data in shapes)
         self._held[v.name] = (*held, a, b)
         return native
@@ -240,15 +240,14 @@ def _ask(
         raise BadArgument(f"option max_steps is a whole number, not {options.max_steps!r}")
     if not isinstance(options.tight, bool):
         raise BadArgument(f"option tight is True or False, not {options.tight!r}")
-    native_a, python_a = a._native(v)
-    native_b, python_b = b._native(v)
+    native_a, native_b = a._native(v), b._native(v)  # held here until C has answered
     settings = ffi.NULL
     if cache is not None or options != _DEFAULTS:
         held = ffi.NULL if cache is None else cache._prepare(v, a, b)
         settings = _settings(v, options, held, workspace)
     out = ffi.new(v.result_type)
-    status = question(native_a, native_b, settings, out)
-    if python_a or python_b:
+    status = question(native_a.struct, native_b.struct, settings, out)
+    if native_a.python or native_b.python:
         raise_from_callback()
     if status < 0:
         raise error(status, _fault(v, a, b, options))

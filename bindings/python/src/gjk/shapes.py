@@ -8,7 +8,7 @@ from operator import index
 from typing import Any, Callable, ClassVar, TypeVar
 
 from ._gjk import ffi
-from ._native import Native, Variant, callback_handle
+from ._native import Native, NativeShape, Variant, callback_handle
 from .coordinates import Numbers, PoseLike, fault_in, number, number_fault, numbers, pose_numbers, rows
 from .errors import BadArgument
 
@@ -48,7 +48,7 @@ def _dimensions(dim: Any, name: str) -> int:
 
 
 class Shape:
-    """A convex set: { m x + p : x in the set of its class }, grown by a ball. Immutable.
+    """A convex set: { m x + p : x in the set of its class }, grown by a ball. Immutable; threads may share it.
 
     dim: 2 or 3.
     pose: dim * (dim + 1) numbers, [m | p] by rows, or None for the identity. m may be any linear map: it may rotate,
@@ -63,7 +63,7 @@ class Shape:
     _more: ClassVar[tuple[str, ...]] = ()
     """Further attributes that belong to the set."""
 
-    _natives: dict[str, tuple[Any, bool, Any]]
+    _natives: dict[str, NativeShape]
     _sets: dict[str, Native]
     dim: int
     pose: tuple[float, ...] | None
@@ -131,25 +131,25 @@ class Shape:
             words["radius"] = self.radius
         return words
 
-    def _native(self, v: Variant) -> tuple[Any, bool]:
-        """The shape as a C struct, which lives as long as this object; and whether it calls back into Python."""
+    def _native(self, v: Variant) -> NativeShape:
+        """The shape as a C struct. Of threads that make it at once the first gives it to all: one that others may
+        already read in C is never replaced. The same goes for the set."""
         found = self._natives.get(v.name)
-        if found is None:
-            found = self._make_native(v)
-            self._natives[v.name] = found
-        return found[0], found[1]
+        return self._natives.setdefault(v.name, self._make_native(v)) if found is None else found
 
-    def _make_native(self, v: Variant) -> tuple[Any, bool, Any]:
+    def _native_set(self, v: Variant) -> Native:
+        found = self._sets.get(v.name)
+        return self._sets.setdefault(v.name, self._set(v)) if found is None else found
+
+    def _make_native(self, v: Variant) -> NativeShape:
         dim = self.dim
-        native = self._sets.get(v.name)
-        if native is None:
-            native = self._sets[v.name] = self._set(v)
+        native = self._native_set(v)
         pose = ffi.NULL
         if self.pose is not None:
             m = [c for i, c in enumerate(self.pose) if i % (dim + 1) < dim]
             pose = v.new("pose", {"m": m, "p": self.pose[dim :: dim + 1]})
         fields = {"support": native.support, "data": native.data, "pose": pose, "radius": self.radius}
-        return v.new("shape", fields), native.python, (pose, native)
+        return NativeShape(v.new("shape", fields), native.python, (pose, native))
 
     def _set(self, v: Variant) -> Native:
         """The support and the data of the set without pose and radius."""
@@ -456,9 +456,9 @@ class _Couple(Shape):
         super().__init__(a.dim, pose, radius, a=a, b=b, _depth=depth)
 
     def _set(self, v: Variant) -> Native:
-        (a, python_a), (b, python_b) = self.a._native(v), self.b._native(v)
-        data = v.new("couple", {"a": a[0], "b": b[0]})
-        return Native(v.ready(self._support), data, (data, a, b, self.a, self.b), python_a or python_b)
+        a, b = self.a._native(v), self.b._native(v)
+        data = v.new("couple", {"a": a.struct[0], "b": b.struct[0]})
+        return Native(v.ready(self._support), data, (data, a, b), a.python or b.python)
 
     def _set_fault(self) -> str:
         for name, member in (("a", self.a), ("b", self.b)):

@@ -89,8 +89,8 @@ class _Watch:
     def __init__(self, v: Variant, level: Level, pairs: list[Pair]) -> None:
         self.v, self.level, self.count, self.repeats = v, level, len(pairs), 1
         self.pairs = pairs  # keeps alive what the copies below point to
-        self.a = _array(v, [pair.a._native(v)[0] for pair in pairs])
-        self.b = _array(v, [pair.b._native(v)[0] for pair in pairs])
+        self.a = _array(v, [pair.a._native(v).struct for pair in pairs])
+        self.b = _array(v, [pair.b._native(v).struct for pair in pairs])
         self.options = v.new("options", {"size": v.options_size})
         if level.kind not in QUERIES:
             setattr(self.options, level.kind, level.setting if level.kind == "rel_tol" else int(level.setting))
