@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+import gc
+import math
+import weakref
 from itertools import product
 
 import pytest
 
 import gjk
+from gjk._native import variant
 
 precisions = pytest.mark.parametrize("precision", ["double", "float"])
 TURN = [0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6]
@@ -45,15 +49,43 @@ def test_other_shapes_cost_time_never_truth(precision):
 
 def test_the_cache_keeps_alive_what_it_remembers():
     """Also what it may remember from before a query that was refused."""
-    cache, a = gjk.Cache(), gjk.Sphere(1)
-    first = gjk.Box((1, 1, 1)).at((5, 0, 0))
+    cache, a = gjk.Cache(), corners_of(1, 1, 1)
+    first = corners_of(1, 1, 1).at(at(5))
     gjk.distance(a, first, cache=cache)
     with pytest.raises(gjk.BadSupport):
         gjk.distance(a, gjk.Box((1, -1, 1)), cache=cache)
     assert any(held is first for held in cache._held["gjk3"])
-    second = gjk.Box((2, 1, 1)).at((5, 0, 0))
+    second = corners_of(2, 1, 1).at(at(5))
     gjk.distance(a, second, cache=cache)
     assert cache._held["gjk3"] == (a, second)
+
+
+@precisions
+def test_what_c_goes_on_remembering_stays_alive(precision):
+    """Not each answer changes it; and the address of a set that is gone may be that of the next one."""
+    cache, box = gjk.Cache(), gjk.Box((1, 1, 1))
+    dot = gjk.Support(lambda _: (3, 0, 0), reach=4)
+    first = gjk.Support(lambda d: (1, math.copysign(1, d[1]), 0), reach=2)
+    gjk.distance(first, dot, cache=cache, precision=precision)
+    gone = weakref.ref(first)
+    gjk.intersect(box, box.at((5, 0, 0)), cache=cache, precision=precision)
+    del first
+    gc.collect()
+    (name,) = cache._native
+    held = [shape._native(variant(3, precision)).struct.data for shape in cache._held[name]]
+    assert all(data in held for data in cache._native[name].data)
+    assert gone() is not None
+    for i in range(2):
+        gjk.distance(corners_of(1, 2, 3), corners_of(1, 1, 1).at(at(6 + i)), cache=cache, precision=precision)
+    gc.collect()
+    assert gone() is None, "C remembers others now"
+
+
+def test_a_support_may_clear_the_cache_it_is_asked_with():
+    cache = gjk.Cache()
+    clears = gjk.Support(lambda _: cache.clear() or (0, 0, 0), reach=1)
+    assert gjk.distance(clears, gjk.Sphere(1).at((9, 0, 0)), cache=cache).value == 8
+    assert repr(cache) == "<gjk.Cache cold>"
 
 
 def test_queries_refused_leave_nothing_behind():

@@ -76,7 +76,7 @@ class Cache:
 
     Hand one cache to each query of the same pair; a query of a pair that has moved a little then needs about one
     support call on each shape. Move the shapes with `at`, which keeps the set itself: a set built anew is another
-    set to the cache. Meeting other shapes costs time, never truth. Not for two threads at once.
+    set to the cache. Meeting other shapes costs time, never truth. Threads may share shapes, but not a cache.
     """
 
     __slots__ = ("_held", "_native")
@@ -93,21 +93,24 @@ class Cache:
         self._native.clear()
         self._held.clear()
 
-    def _prepare(self, v: Variant, a: Shape, b: Shape) -> Any:
-        """The C struct for a variant. C compares addresses, so the shapes it may remember stay alive here."""
+    def _prepare(self, v: Variant) -> Any:
+        """The C struct for a variant."""
         native = self._native.get(v.name)
         if native is None:
             native = self._native[v.name] = v.new("cache")
-        held = self._held.get(v.name, ())
-        if len(held) > 2:  # a query was refused: of its shapes and those before C remembers some, by address
-            shapes = {shape._native(v).struct.data: shape for shape in held}
-            held = tuple(shapes[data] for data in set(native.data) if data in shapes)
-        self._held[v.name] = (*held, a, b)
         return native
 
-    def _settle(self, v: Variant, a: Shape, b: Shape) -> None:
-        """After an answer C remembers this pair and no other."""
-        self._held[v.name] = (a, b)
+    def _settle(self, v: Variant, native: Any, a: Shape, b: Shape) -> None:
+        """Keep alive the shapes that C remembers after a query, and no others.
+
+        It knows them by the addresses of their data, which are not to be free for other sets. Not each query
+        changes what it remembers: some are told without a search, or refused.
+        """
+        cleared = self._native.get(v.name) is not native  # meanwhile, by a support
+        if cleared:
+            return
+        shapes = {shape._native(v).struct.data: shape for shape in (*self._held.get(v.name, ()), a, b)}
+        self._held[v.name] = tuple(shapes[data] for data in dict.fromkeys(native.data) if data in shapes)
 
 
 def distance(
@@ -243,16 +246,16 @@ def _ask(
     native_a, native_b = a._native(v), b._native(v)  # held here until C has answered
     settings = ffi.NULL
     if cache is not None or options != _DEFAULTS:
-        held = ffi.NULL if cache is None else cache._prepare(v, a, b)
+        held = ffi.NULL if cache is None else cache._prepare(v)
         settings = _settings(v, options, held, workspace)
     out = ffi.new(v.result_type)
     status = question(native_a.struct, native_b.struct, settings, out)
+    if cache is not None:
+        cache._settle(v, held, a, b)
     if native_a.python or native_b.python:
         raise_from_callback()
     if status < 0:
         raise error(status, _fault(v, a, b, options))
-    if cache is not None:
-        cache._settle(v, a, b)
     return (
         out.value,
         out.lower,
