@@ -141,6 +141,28 @@ def test_a_query_inside_a_callback():
     assert gjk.distance(gjk.Support(asks), gjk.Sphere(1).at((4, 0, 0))).value == pytest.approx(2)
 
 
+@pytest.mark.parametrize("couple", [gjk.Sum, gjk.Hull])
+@pytest.mark.parametrize("fails_first", [True, False])
+def test_an_error_is_that_of_its_own_query(couple, fails_first):
+    """Not of a query that the other part asks, which is well; nor is it lost there."""
+    inner = []
+
+    def fails(direction):
+        raise LookupError("of the outer query")
+
+    def asks(direction):
+        inner.append(gjk.distance(gjk.Support(unit_ball, reach=1), gjk.Sphere(1).at((5, 0, 0))).value)
+        with pytest.raises(ZeroDivisionError):
+            gjk.distance(gjk.Support(lambda d: 1 / 0, reach=1), gjk.Sphere(1))
+        return (0, 0, 0)
+
+    parts = [gjk.Support(fails, reach=1), gjk.Support(asks, reach=1)]
+    with pytest.raises(LookupError, match="of the outer query"):
+        gjk.distance(couple(*(parts if fails_first else parts[::-1])), gjk.Sphere(1).at((9, 0, 0)))
+    assert inner == pytest.approx([3] * len(inner))
+    assert inner
+
+
 def test_threads_do_not_mix_errors():
     seen = {}
 

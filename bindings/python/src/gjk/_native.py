@@ -12,7 +12,7 @@ from ._gjk import ffi, lib
 from .coordinates import numbers
 from .errors import BadArgument
 
-__all__ = ["PRECISIONS", "Native", "NativeShape", "Variant", "callback_handle", "raise_from_callback", "variant"]
+__all__ = ["PRECISIONS", "Native", "NativeShape", "Variant", "ask_with_callbacks", "callback_handle", "variant"]
 
 PRECISIONS = ("double", "float")
 
@@ -86,7 +86,8 @@ class NativeShape(NamedTuple):
     keep: tuple[Any, ...]
 
 
-_raised = threading.local()
+_query = threading.local()
+"""raised: of the query that is under way on this thread, the first error of its supports, if any, in a list."""
 
 
 def callback_handle(function: Callable[..., Any], dim: int, reach: float) -> Any:
@@ -94,12 +95,20 @@ def callback_handle(function: Callable[..., Any], dim: int, reach: float) -> Any
     return ffi.new_handle((function, dim, reach))
 
 
-def raise_from_callback() -> None:
-    """Raise here what a Python support raised during the query that has just ended."""
-    error = getattr(_raised, "error", None)
-    if error is not None:
-        _raised.error = None
-        raise error
+def ask_with_callbacks(question: Callable[..., int], *arguments: Any) -> int:
+    """The status of a query. What a Python support raised during it is raised here.
+
+    Each query has a list of its own for that: a support may ask queries itself, whose errors are its own affair.
+    """
+    outer, raised = getattr(_query, "raised", None), list[BaseException]()
+    try:
+        _query.raised = raised
+        status = question(*arguments)
+    finally:
+        _query.raised = outer
+    if raised:
+        raise raised[0]
+    return status
 
 
 def _answer(data: Any, direction: Any, point: Any) -> float:
@@ -114,8 +123,8 @@ def _answer(data: Any, direction: Any, point: Any) -> float:
 
 def _keep(kind: type[BaseException], error: BaseException, traceback: Any) -> None:
     """C cannot carry what `_answer` has raised: it is kept here, and raised when the query has ended."""
-    if getattr(_raised, "error", None) is None:
-        _raised.error = error.with_traceback(traceback)
+    if not _query.raised:
+        _query.raised.append(error.with_traceback(traceback))
 
 
 for _variant in _VARIANTS.values():

@@ -7,7 +7,7 @@ from enum import Enum
 from typing import Any, NamedTuple
 
 from ._gjk import ffi
-from ._native import Variant, raise_from_callback, variant
+from ._native import Variant, ask_with_callbacks, variant
 from .errors import BadArgument, Status, error
 from .shapes import Shape
 
@@ -249,13 +249,20 @@ def _ask(
         held = ffi.NULL if cache is None else cache._prepare(v)
         settings = _settings(v, options, held, workspace)
     out = ffi.new(v.result_type)
-    status = question(native_a.struct, native_b.struct, settings, out)
-    if cache is not None:
-        cache._settle(v, held, a, b)
-    if native_a.python or native_b.python:
-        raise_from_callback()
+    try:
+        if native_a.python or native_b.python:
+            status = ask_with_callbacks(question, native_a.struct, native_b.struct, settings, out)
+        else:
+            status = question(native_a.struct, native_b.struct, settings, out)
+    finally:
+        if cache is not None:
+            cache._settle(v, held, a, b)
     if status < 0:
         raise error(status, _fault(v, a, b, options))
+    return _fields(out, Status(status))
+
+
+def _fields(out: Any, status: Status) -> tuple[Any, ...]:
     return (
         out.value,
         out.lower,
@@ -263,7 +270,7 @@ def _ask(
         tuple(out.point_a),
         tuple(out.point_b),
         tuple(out.normal),
-        Status(status),
+        status,
         out.steps,
         out.supports,
     )
