@@ -181,6 +181,19 @@ def test_nesting_has_an_end():
         gjk.Sum(shape, gjk.Sphere(1))
 
 
+@pytest.mark.parametrize("couple", [gjk.Sum, gjk.Hull])
+def test_parts_have_an_end(couple):
+    """A part used twice is asked twice, and what uses that twice asks four times."""
+    shape = gjk.Box((1, 1, 1))
+    for _ in range(12):
+        shape = couple(shape, shape).rounded(0)
+    times = 4096 if couple is gjk.Sum else 1
+    assert gjk.distance(shape, gjk.Sphere(1).at((5000, 0, 0))).value == pytest.approx(4999 - times)
+    for one, other in ((shape, gjk.Sphere(1)), (gjk.Sphere(1), shape), (shape, shape)):
+        with pytest.raises(gjk.BadArgument, match="parts in all, where 4096 are the most"):
+            couple(one, other)
+
+
 @given(data=st.data(), dim=st.sampled_from([2, 3]))
 def test_json_and_back(data, dim):
     tells = data.draw(shapes(dim))
@@ -222,7 +235,8 @@ def test_poses_that_need_no_care_stay_simple():
 @pytest.mark.parametrize("dim", [np.int64(2), np.uint8(2), np.array(2)])
 def test_dim_is_any_integer(dim):
     ball = gjk.Ball(1, dim=dim)
-    assert ball.dim == 2 and type(ball.dim) is int
+    assert ball.dim == 2
+    assert type(ball.dim) is int
     assert gjk.distance(ball, gjk.Sphere(1, dim=dim, pose=(3, 0))).value == 1
 
 

@@ -32,8 +32,10 @@ __all__ = [
 
 S = TypeVar("S", bound="Shape")
 
-# C walks a sum of sums by recursion; this bounds its stack.
+# C walks a sum of sums by recursion: the first bounds its stack; the second its time, as a part that is used twice is
+# walked twice, and what holds it twice doubles that.
 _DEEPEST = 100
+_MOST_PARTS = 4096
 
 
 def _dimensions(dim: Any, name: str) -> int:
@@ -438,10 +440,12 @@ class Disc(Shape):
 class _Couple(Shape):
     """Two shapes as one, poses and radii included."""
 
-    __slots__ = ("_depth", "a", "b")
+    __slots__ = ("_depth", "_parts", "a", "b")
     _sizes = ("a", "b")
-    _more = ("_depth",)
+    _more = ("_depth", "_parts")
     _support: ClassVar[str]
+    _depth: int
+    _parts: int
     a: Shape
     b: Shape
 
@@ -453,7 +457,10 @@ class _Couple(Shape):
         depth = 1 + max(getattr(a, "_depth", 0), getattr(b, "_depth", 0))
         if depth > _DEEPEST:
             raise BadArgument(f"{type(self).__name__}: sums and hulls nested deeper than {_DEEPEST}")
-        super().__init__(a.dim, pose, radius, a=a, b=b, _depth=depth)
+        parts = getattr(a, "_parts", 1) + getattr(b, "_parts", 1)
+        if parts > _MOST_PARTS:
+            raise BadArgument(f"{type(self).__name__}: {parts} parts in all, where {_MOST_PARTS} are the most")
+        super().__init__(a.dim, pose, radius, a=a, b=b, _depth=depth, _parts=parts)
 
     def _set(self, v: Variant) -> Native:
         a, b = self.a._native(v), self.b._native(v)
@@ -469,14 +476,15 @@ class _Couple(Shape):
 
 
 class Sum(_Couple):
-    """{ x + y : x in a, y in b }, the Minkowski sum."""
+    """{ x + y : x in a, y in b }, the Minkowski sum. Sums and hulls nest 100 deep and of 4096 parts in all; a shape
+    that is used in two places counts twice."""
 
     __slots__ = ()
     _support = "support_sum"
 
 
 class Hull(_Couple):
-    """The convex hull of a and b together."""
+    """The convex hull of a and b together; nested as `Sum`."""
 
     __slots__ = ()
     _support = "support_hull"
