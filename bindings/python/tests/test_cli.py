@@ -16,12 +16,13 @@ from hypothesis import strategies as st
 from pairs import pairs, prepared
 
 import gjk
-from gjk import exact
+from gjk import cli, exact
 from gjk.cli import answer_lines, main
 
 BOX = {"shape": "box", "half": [1, 1, 1]}
 BALL = {"shape": "sphere", "r": 0.5, "pose": [1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 1, 0]}
 CASE = {"id": "one", "dim": 3, "a": BOX, "b": BALL}
+FULL = Path("/dev/full")
 
 
 def ask(*lines, query=None):
@@ -266,10 +267,49 @@ def test_a_file_that_is_not_there(capsys):
     assert "no/such/file" in capsys.readouterr().err
 
 
-def test_a_reader_that_leaves():
-    """head -1 closes the pipe: no traceback."""
-    script = f"import json; [print(json.dumps({CASE!r})) for _ in range(20000)]"
-    pipe = f"{sys.executable} -c '{script.replace(chr(39), chr(34))}' | {sys.executable} -m gjk query | head -1"
+@pytest.mark.parametrize("source", ["-", "FILE"])
+def test_a_reader_that_leaves(tmp_path, source):
+    """head -1 closes the pipe: no traceback, nor any word."""
+    file = tmp_path / "cases.jsonl"
+    file.write_text((json.dumps(CASE) + "\n") * 20000)
+    given = f"<{file}" if source == "-" else str(file)
+    pipe = f"{{ {sys.executable} -m gjk query {given}; echo $? >&2; }} | head -1"
     done = subprocess.run(["sh", "-c", pipe], capture_output=True, text=True)
     assert json.loads(done.stdout)["status"] == "ok"
-    assert "gjk" not in done.stderr
+    assert done.stderr == "141\n"
+
+
+@pytest.mark.parametrize(
+    ("redirected", "words"),
+    [
+        pytest.param("{} >/dev/full", "No space", marks=pytest.mark.skipif(not FULL.exists(), reason="no /dev/full")),
+        pytest.param("<{} >/dev/full", "No space", marks=pytest.mark.skipif(not FULL.exists(), reason="no /dev/full")),
+        ("{} >&-", "standard output is closed"),
+        ("<{} >&-", "standard output is closed"),
+        ("<&-", "standard input is closed"),
+        ("/no/such/file", "/no/such/file"),
+    ],
+)
+def test_errors_are_told_in_a_line(tmp_path, redirected, words):
+    file = tmp_path / "cases.jsonl"
+    file.write_text(json.dumps(CASE) + "\n")
+    line = f"{sys.executable} -m gjk query " + redirected.format(file)
+    done = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith("gjk query: ")
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("field", ["id", "query", "dim", "precision", "a", "options"])
+def test_fields_nested_deeper_than_can_be_told(monkeypatch, field):
+    """Where json reads deeper than it writes, and than repr goes."""
+    deep: list = []
+    for _ in range(100_000):
+        deep = [deep]
+    read = cli._parse
+    monkeypatch.setattr(cli, "_parse", lambda line: {**CASE, field: deep} if line == b"deep\n" else read(line))
+    answers, code = ask("deep", CASE)
+    assert code == (field == "id")
+    expected = {"id": "bad line", "query": "unsupported query"}.get(field, "bad argument")
+    assert [answer["status"] for answer in answers] == [expected, "ok"]

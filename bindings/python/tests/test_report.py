@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import re
 import sys
@@ -15,7 +16,7 @@ import pytest
 from gjk import Box, distance, penetration
 from gjk.cli import main
 from gjk.exact import APART, OVERLAPPING, TOUCHING
-from gjk.report import measure, table, truth
+from gjk.report import measure, table, terminal, truth
 from gjk.report.scene import Pair, SceneError, load
 
 TURN = [0.36, 0.48, -0.8, 2, -0.8, 0.6, 0, 2.5, 0.48, 0.64, 0.6, 2]
@@ -36,6 +37,7 @@ SCENE = {
     ],
     "pairs": "all",
 }
+BALL = SCENE["shapes"]["ball"]
 
 
 @pytest.fixture
@@ -247,6 +249,103 @@ def test_bad_numbers_in_a_scene_are_named(tmp_path, capsys):
     path.write_text(json.dumps({**SCENE, "bodies": bodies, "shapes": shapes}))
     assert main(["report", str(path), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 2
     assert "floor and ball: b: radius is -1" in capsys.readouterr().err
+
+
+NOTHING = {"shape": "sphere", "r": 0}
+FLAT = {"shape": "box", "half": [0, 0, 0]}
+FAINT = {"shape": "box", "half": [1e-310, 5e-324, 0]}
+
+
+@pytest.mark.parametrize("pair", [(NOTHING, FLAT), (FLAT, FLAT), (FAINT, NOTHING), (FAINT, FAINT)])
+def test_bodies_without_size(tmp_path, pair):
+    """There is no scale to measure errors by."""
+    path = tmp_path / "scene.json"
+    bodies = [{"name": name, "shape": shape} for name, shape in zip("ab", pair)]
+    path.write_text(json.dumps({"dim": 3, "bodies": bodies, "pairs": "all"}))
+    assert main(["report", str(path), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 0
+
+
+def test_names_are_shown_as_they_are(tmp_path, capsys):
+    """Not as markup of the terminal; and halves of characters, which JSON can spell, as question marks."""
+    path, out = tmp_path / "scene.json", tmp_path / "[/bold]"
+    bodies = [{"name": name, "shape": BALL, "pose": [i, 0, 0]} for i, name in enumerate(["\ud800", "[/red]"])]
+    path.write_text(
+        json.dumps({"name": "[/a][b]\ud800", "source": "\udfff", "dim": 3, "bodies": bodies, "pairs": "all"})
+    )
+    assert main(["report", str(path), "--out", str(out), "--jobs", "1", "--precision", "double"]) == 0
+    printed = capsys.readouterr().out
+    assert "[/a][b]?: distance of 1 pairs" in printed
+    assert f"wrote {out}/report.csv" in printed
+    assert "Scene: ?" in (out / "report.html").read_text(encoding="utf-8")
+
+
+def nested(depth):
+    shape = BALL
+    for _ in range(depth):
+        shape = {"shape": "sum", "a": shape, "b": BALL}
+    return shape
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"dim": 3.0}, "dim is 2 or 3, not 3.0"),
+        ({"bodies": [{"name": "deep", "shape": nested(150)}] * 2}, "nested"),
+        ({"shapes": {"deep": nested(150)}}, "nested"),
+    ],
+)
+def test_scenes_that_are_refused_in_a_line(tmp_path, capsys, change, words):
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps({**SCENE, **change}))
+    assert main(["report", str(path), "--out", str(tmp_path / "out")]) == 2
+    printed = capsys.readouterr().err
+    assert printed.startswith("gjk report: ")
+    assert words in printed
+    assert printed.count("\n") == 1
+
+
+def test_a_scene_nested_deeper_than_json_reads(tmp_path, capsys):
+    path = tmp_path / "scene.json"
+    path.write_text('{"name": ' + "[" * 100_000 + "]" * 100_000 + "}")
+    assert main(["report", str(path)]) == 2
+    assert "scene.json: not a scene: nested too deep" in capsys.readouterr().err
+
+
+def test_what_overflows_a_float_is_told_before_the_work(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(truth, "find", lambda *_: pytest.fail("worked before it looked"))
+    path = tmp_path / "scene.json"
+    bodies = [{"name": "vast", "shape": {"shape": "box", "half": [1e300, 1, 1]}}, {"name": "ball", "shape": BALL}]
+    path.write_text(json.dumps({**SCENE, "bodies": bodies}))
+    assert main(["report", str(path), "--out", str(tmp_path / "out")]) == 2
+    assert capsys.readouterr().err == "gjk report: vast: a number out of the range of float\n"
+
+
+@pytest.mark.parametrize(("error", "code"), [(BrokenPipeError, 141), (OSError, 2)])
+def test_output_that_fails_is_no_broken_bracket(scene, tmp_path, monkeypatch, capsys, error, code):
+    def fails(*_):
+        raise error("no room")
+
+    monkeypatch.setattr(terminal, "show", fails)
+    assert main(["report", str(scene), "--out", str(tmp_path / "out"), "--jobs", "1", "--limit", "1"]) == code
+    assert capsys.readouterr().err.endswith("gjk report: no room\n") == (code == 2)
+
+
+def test_a_closed_pipe_is_left_to_the_command(monkeypatch):
+    """rich would end with 1, which says that a bracket misses the truth."""
+
+    class Closed(io.StringIO):
+        def write(self, _):
+            raise BrokenPipeError
+
+    monkeypatch.setattr(sys, "stdout", Closed())
+    with pytest.raises(BrokenPipeError):
+        terminal._Console().print("words")
+
+
+def test_standard_output_that_is_closed(scene, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stdout", None)
+    assert main(["report", str(scene), "--out", str(tmp_path / "out")]) == 2
+    assert capsys.readouterr().err == "gjk report: standard output is closed\n"
 
 
 def test_a_folder_that_cannot_be_is_told_before_the_work(scene, monkeypatch, capsys):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, Callable
 
-from .errors import BadArgument, Error, Status
+from .errors import BadArgument, Error, Status, told
 from .query import Result, distance, intersect, penetration
 from .shapes import (
     Ball,
@@ -29,7 +29,7 @@ from .shapes import (
     Triangle,
 )
 
-__all__ = ["QUERIES", "posed", "result_to_json", "shape_from_json", "shape_to_json", "solve_case"]
+__all__ = ["QUERIES", "dimension", "posed", "result_to_json", "shape_from_json", "shape_to_json", "solve_case"]
 
 OPTIONS = {
     "distance": ("cutoff", "max_steps", "abs_tol", "rel_tol", "slack", "tight"),
@@ -40,19 +40,26 @@ QUERIES = tuple(OPTIONS)
 _FUNCTIONS: dict[str, Callable[..., Result]] = dict(zip(QUERIES, (distance, intersect, penetration)))
 
 
+def dimension(dim: Any) -> int:
+    """The number that a field "dim" holds."""
+    if dim not in (2, 3) or isinstance(dim, (bool, float)):
+        raise BadArgument(f"dim is 2 or 3, not {told(dim)}")
+    return int(dim)
+
+
 def shape_from_json(shape: Any, dim: int) -> Shape:
     """The shape that a JSON object tells of.
 
     {"shape": KIND, ...} with the fields of the kind - points: points; box: half; segment, triangle: v; sphere, ball,
-    disc: r; capsule, cylinder, cone: r and half_length; ellipsoid: radii; sum, hull: a and b - and for every kind "radius"
-    and "pose", dim * (dim + 1) numbers.
+    disc: r; capsule, cylinder, cone: r and half_length; ellipsoid: radii; sum, hull: a and b - and for every kind
+    "radius" and "pose", dim * (dim + 1) numbers.
     """
     if not isinstance(shape, dict):
-        raise BadArgument(f"a shape is an object, not {shape!r}")
+        raise BadArgument(f"a shape is an object, not {told(shape)}")
     kind = shape.get("shape")
     make = _KINDS.get(kind) if isinstance(kind, str) else None
     if make is None:
-        raise BadArgument(f"no such shape: {kind!r}")
+        raise BadArgument(f"no such shape: {told(kind)}")
     try:
         made = make(shape, dim)
     except KeyError as missing:
@@ -129,7 +136,11 @@ def solve_case(case: dict[str, Any], query: str | None = None) -> dict[str, Any]
     answer = {"id": case["id"]} if "id" in case else {}
     asked = case.get("query", query or QUERIES[0])
     if asked not in QUERIES:
-        return {**answer, "status": "unsupported query", "message": f"query {asked!r}; known are {', '.join(QUERIES)}"}
+        return {
+            **answer,
+            "status": "unsupported query",
+            "message": f"query {told(asked)}; known are {', '.join(QUERIES)}",
+        }
     try:
         return {**answer, **result_to_json(_ask(case, asked))}
     except RecursionError:
@@ -139,15 +150,13 @@ def solve_case(case: dict[str, Any], query: str | None = None) -> dict[str, Any]
 
 
 def _ask(case: dict[str, Any], asked: str) -> Result:
-    dim = case.get("dim", 3)
-    if dim not in (2, 3) or isinstance(dim, (bool, float)):
-        raise BadArgument(f"dim is 2 or 3, not {dim!r}")
+    dim = dimension(case.get("dim", 3))
     if "a" not in case or "b" not in case:
         raise BadArgument("a case has two shapes, a and b")
     a, b = shape_from_json(case["a"], dim), shape_from_json(case["b"], dim)
     given = case.get("options") or {}
     if not isinstance(given, dict):
-        raise BadArgument(f"options is an object, not {given!r}")
+        raise BadArgument(f"options is an object, not {told(given)}")
     unknown = [name for name in given if name not in OPTIONS["penetration"]]
     if unknown:
         raise BadArgument(f"no such option: {unknown[0]!r}; known are {', '.join(OPTIONS['penetration'])}")

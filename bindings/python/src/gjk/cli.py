@@ -18,21 +18,41 @@ __all__ = ["main"]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns its exit code."""
+    """Run the command; returns its exit code, as README.md has it."""
     chosen = _parser().parse_args(arguments)
+    if sys.stdout is None:
+        return _failed(chosen, "standard output is closed")
     try:
         return int(chosen.run(chosen))
-    except BrokenPipeError:  # the reader has seen enough: say no more, not even at exit
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+    except BrokenPipeError:  # the reader has seen enough: say no more
+        _drop_output()
+        return 141
+    except OSError as wrong:
+        _drop_output()
+        return _failed(chosen, wrong)
     except KeyboardInterrupt:
         return 130
+
+
+def _failed(chosen: argparse.Namespace, wrong: object) -> int:
+    if sys.stderr is not None:  # of none, print would make standard output
+        print(f"gjk {chosen.command}: {wrong}", file=sys.stderr)
+    return 2
+
+
+def _drop_output() -> None:
+    """What cannot be written is not tried once more at exit."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="gjk", description="How two convex sets stand to each other, with proof.")
     parser.add_argument("--version", action="version", version=f"gjk {__version__}")
-    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+    commands = parser.add_subparsers(title="commands", dest="command", required=True, metavar="COMMAND")
     _add_query(commands)
     _add_report(commands)
     return parser
@@ -68,14 +88,12 @@ def _positive(text: str) -> int:
 
 
 def _run_query(chosen: argparse.Namespace) -> int:
-    if chosen.file is None:
-        return answer_lines(sys.stdin.buffer, sys.stdout, chosen.query)
-    try:
+    if chosen.file is not None:
         with open(chosen.file, "rb") as lines:
             return answer_lines(lines, sys.stdout, chosen.query)
-    except OSError as wrong:
-        print(f"gjk query: {wrong}", file=sys.stderr)
-        return 2
+    if sys.stdin is None:
+        return _failed(chosen, "standard input is closed")
+    return answer_lines(sys.stdin.buffer, sys.stdout, chosen.query)
 
 
 def answer_lines(lines: Iterable[bytes], out: TextIO, query: str | None = None) -> int:
@@ -86,6 +104,7 @@ def answer_lines(lines: Iterable[bytes], out: TextIO, query: str | None = None) 
             continue
         try:
             case = _parse(line)
+            json.dumps([case.get("id")])  # such as it stands in the answer
         except (ValueError, RecursionError) as wrong:
             answer: dict[str, Any] = {"line": number, "status": "bad line", "message": str(wrong)}
             code = 1
@@ -106,8 +125,7 @@ def _run_report(chosen: argparse.Namespace) -> int:
     try:
         from .report import run
     except ImportError as missing:
-        print(f"gjk report needs {missing.name}: pip install './bindings/python[report]'", file=sys.stderr)
-        return 2
+        return _failed(chosen, f"needs {missing.name}: pip install './bindings/python[report]'")
     return run(chosen.scene, chosen.out, chosen.precision, chosen.jobs, chosen.limit)
 
 

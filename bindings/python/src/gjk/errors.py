@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import Any
 
 from ._gjk import ffi, lib
 
-__all__ = ["BadArgument", "BadSupport", "Error", "Status"]
+__all__ = ["BadArgument", "BadSupport", "Error", "Status", "told"]
 
 
 class Status(IntEnum):
@@ -50,6 +51,15 @@ class BadSupport(Error):
     no points."""
 
     status = Status.BAD_SUPPORT
+
+
+def told(x: Any) -> str:
+    """A value in the words of a message, cut where it is long; its type where it has no words."""
+    try:
+        words = repr(x)
+    except Exception:  # an integer of too many digits, lists nested too deep, or what a class of the caller's raises
+        return f"a {type(x).__name__}"
+    return words if len(words) <= 200 else f"{words[:200]}..."
 
 
 def error(status: int, message: str) -> Error:

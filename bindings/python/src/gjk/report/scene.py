@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..cases import posed, shape_from_json, shape_to_json
+from ..cases import dimension, posed, shape_from_json, shape_to_json
 from ..errors import Error
 from ..exact import round_to_float
 from ..shapes import Shape
@@ -41,12 +41,15 @@ class Scene:
         """The pairs with every number rounded to float."""
         known: dict[int, Shape] = {}
 
-        def single(shape: Shape) -> Shape:
+        def single(name: str, shape: Shape) -> Shape:
             if id(shape) not in known:
-                known[id(shape)] = shape_from_json(round_to_float(shape_to_json(shape)), self.dim)
+                try:
+                    known[id(shape)] = shape_from_json(round_to_float(shape_to_json(shape)), self.dim)
+                except OverflowError:
+                    raise SceneError(f"{name}: a number out of the range of float") from None
             return known[id(shape)]
 
-        return [Pair(p.name_a, p.name_b, single(p.a), single(p.b)) for p in self.pairs]
+        return [Pair(p.name_a, p.name_b, single(p.name_a, p.a), single(p.name_b, p.b)) for p in self.pairs]
 
 
 def load(path: Path, limit: int | None = None) -> Scene:
@@ -60,15 +63,23 @@ def load(path: Path, limit: int | None = None) -> Scene:
         pairs = [Pair(a, b, bodies[a], bodies[b]) for a, b in chosen]
     except KeyError as missing:
         raise SceneError(f"{path}: no {missing}") from None
+    except RecursionError:
+        raise SceneError(f"{path}: not a scene: nested too deep") from None
     except (Error, ValueError, TypeError, AttributeError) as wrong:
         raise SceneError(f"{path}: not a scene: {wrong}") from None
     if not pairs:
         raise SceneError(f"{path}: a scene without pairs")
-    return Scene(str(scene.get("name", path.stem)), scene["dim"], pairs, len(couples), str(scene.get("source", "")))
+    name, source = scene.get("name", path.stem), scene.get("source", "")
+    return Scene(_text(name), scene["dim"], pairs, len(couples), _text(source))
+
+
+def _text(words: Any) -> str:
+    """Such that it can be printed and written: JSON can spell halves of characters."""
+    return str(words).encode("utf-8", "replace").decode("utf-8")
 
 
 def _bodies(scene: dict[str, Any]) -> dict[str, Shape]:
-    dim, shapes = scene["dim"], scene.get("shapes", {})
+    dim, shapes = dimension(scene["dim"]), scene.get("shapes", {})
     ready = {name: shape_from_json(shape, dim) for name, shape in shapes.items()}
     bodies = {}
     for body in scene["bodies"]:

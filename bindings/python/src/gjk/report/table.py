@@ -17,6 +17,8 @@ from .truth import Truth
 __all__ = ["COLUMNS", "UNIT", "Depths", "Report", "Row", "Spread", "Verdicts", "summarise", "write"]
 
 UNIT = {"double": 2.0**-53, "float": 2.0**-24}
+LEAST = {"double": 2.0**-1074, "float": 2.0**-149}
+"""The smallest numbers above 0. Of bodies that have no size to speak of these are the units."""
 
 
 class Spread(NamedTuple):
@@ -95,16 +97,16 @@ class Report(NamedTuple):
 
 def summarise(precision: str, pairs: list[Pair], truths: list[Truth], answers: list[Answers]) -> Report:
     by_query = {level.level.kind: level for level in answers if level.level.kind in QUERIES}
-    rows = [_row(level, truths, UNIT[precision]) for level in answers if level.level.kind not in QUERIES]
+    rows = [_row(level, truths, precision) for level in answers if level.level.kind not in QUERIES]
     verdicts = _verdicts(by_query["intersect"], truths)
-    depths = _depths(by_query["penetration"], truths, UNIT[precision])
+    depths = _depths(by_query["penetration"], truths, precision)
     return Report(precision, pairs, truths, rows, verdicts, depths)
 
 
-def _row(level: Answers, truths: list[Truth], u: float) -> Row:
+def _row(level: Answers, truths: list[Truth], precision: str) -> Row:
     solved = list(zip(level.answers, truths))
-    errors = [_error(answer, truth, u) for answer, truth in solved]
-    widths = [_in_units(answer.upper - answer.lower, truth, u) for answer, truth in solved]
+    errors = [_error(answer, truth, precision) for answer, truth in solved]
+    widths = [_in_units(answer.upper - answer.lower, truth, precision) for answer, truth in solved]
     return Row(
         level=level.level,
         ns=level.ns,
@@ -125,11 +127,11 @@ def _verdicts(level: Answers, truths: list[Truth]) -> Verdicts:
     return Verdicts(level.ns, _mean_supports(level), sum(apart), sum(meeting), touching, wrong)
 
 
-def _depths(level: Answers, truths: list[Truth], u: float) -> Depths:
+def _depths(level: Answers, truths: list[Truth], precision: str) -> Depths:
     solved = list(zip(level.answers, truths))
     signed = [(answer, _signed(truth)) for answer, truth in solved if truth.separation]
-    errors = [_error(answer, truth, u) for answer, truth in signed]
-    widths = [_in_units(answer.upper - answer.lower, truth, u) for answer, truth in signed]
+    errors = [_error(answer, truth, precision) for answer, truth in signed]
+    widths = [_in_units(answer.upper - answer.lower, truth, precision) for answer, truth in signed]
     wrong = sum(not _holds(*pair) for pair in signed)
     wrong += sum(answer.lower > truth.upper for answer, truth in solved if not truth.separation)
     most = max(errors, default=0.0), max(widths, default=0.0)
@@ -159,13 +161,13 @@ def _holds(answer: Answer, truth: Truth) -> bool:
     return answer.lower <= truth.upper and truth.lower <= answer.upper
 
 
-def _error(answer: Answer, truth: Truth, u: float) -> float:
+def _error(answer: Answer, truth: Truth, precision: str) -> float:
     exact = (truth.lower + truth.upper) / 2
-    return _in_units(float(abs(Fraction(answer.value) - exact)), truth, u)
+    return _in_units(float(abs(Fraction(answer.value) - exact)), truth, precision)
 
 
-def _in_units(length: float, truth: Truth, u: float) -> float:
-    return length / (u * truth.scale) if length else 0.0
+def _in_units(length: float, truth: Truth, precision: str) -> float:
+    return length / max(UNIT[precision] * truth.scale, LEAST[precision])
 
 
 def _spread(values: list[float]) -> Spread:

@@ -23,6 +23,13 @@ __all__ = ["Steps", "figure", "progress", "show"]
 SPREADS = ("error\nmedian", "\np99", "\nmax", "promise\nmedian", "\np99", "\nmax")
 
 
+class _Console(Console):
+    """One that leaves a pipe closed by its reader to the command."""
+
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError
+
+
 class Steps:
     """Bars, one for each stretch of work."""
 
@@ -35,9 +42,9 @@ class Steps:
 
 
 @contextmanager
-def progress(console: Console) -> Iterator[Steps]:
+def progress() -> Iterator[Steps]:
     columns = (TextColumn("{task.description:22}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as bars:
+    with Progress(*columns, console=_Console(stderr=True)) as bars:
         yield Steps(bars)
 
 
@@ -53,7 +60,7 @@ def figure(x: float) -> str:
 
 
 def show(scene: Scene, reports: list[Report], files: list[Path]) -> None:
-    console = Console()
+    console = _Console()
     for report in reports:
         console.print()
         console.print(_table(scene, report))
@@ -63,12 +70,13 @@ def show(scene: Scene, reports: list[Report], files: list[Path]) -> None:
     console.print(Text("Error and promise (bracket width) in u·scale; ns: the mean in the fastest round.", "dim"))
     console.print(_verdict(reports))
     for file in files:
-        console.print(f"wrote {file}", highlight=False, soft_wrap=True)
+        name = str(file).encode("utf-8", "replace").decode("utf-8")
+        console.print(f"wrote {name}", highlight=False, soft_wrap=True, markup=False)
 
 
 def _table(scene: Scene, report: Report) -> Table:
     table = Table(
-        title=f"{scene.name}: distance of {len(report.pairs)} pairs, {scene.dim}-D {report.precision}",
+        title=Text(f"{scene.name}: distance of {len(report.pairs)} pairs, {scene.dim}-D {report.precision}"),
         title_style="bold",
         title_justify="left",
         box=box.SIMPLE_HEAD,
