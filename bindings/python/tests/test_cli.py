@@ -92,6 +92,11 @@ def test_options_and_precision():
     assert answers[2]["upper"] - answers[2]["lower"] > 1e-9
 
 
+def test_what_is_null_is_absent():
+    answers, _ = ask(CASE, {**CASE, "options": None, "a": {**BOX, "radius": None, "pose": None}})
+    assert answers[0] == answers[1]
+
+
 def test_options_of_distances_do_not_spoil_an_intersection():
     (answer,), _ = ask({**CASE, "query": "intersect", "options": {"rel_tol": 0.1, "max_steps": 9}})
     assert answer["status"] == "decided"
@@ -151,6 +156,10 @@ def test_cases_of_every_shape(pair, precision):
         ({"a": None}, "bad argument", "object"),
         ({"a": {**BOX, "pose": [1, 2]}}, "bad argument", "pose"),
         ({"a": {**BOX, "radius": "big"}}, "bad argument", "radius"),
+        *(({"a": {**BOX, "radius": nothing}}, "bad argument", "radius") for nothing in (False, "", [], {}, -1)),
+        *(({"a": {"shape": "sphere", "r": 1, "radius": nothing}}, "bad argument", "radius") for nothing in (False, "")),
+        *(({"options": nothing}, "bad argument", "options is an object") for nothing in (False, "", [], 0)),
+        ({"options": {"abs_tol": False}}, "bad argument", "option abs_tol is False"),
         ({"a": {"shape": "sum", "a": BOX}}, "bad argument", "without 'b'"),
         ({"dim": 4}, "bad argument", "dim"),
         ({"dim": 2}, "bad argument", "2-D"),

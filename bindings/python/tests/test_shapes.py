@@ -89,6 +89,45 @@ def test_all_forms_of_a_pose():
     assert gjk.Box((1, 1)).at((2, 3)).pose == (1, 0, 2, 0, 1, 3)
 
 
+def test_poses_of_iterators_are_read_once():
+    m, p = ((1, 0), (0, 1)), (5, 6)
+    rows = [(1, 0, 5), (0, 1, 6)]
+    forms = [(map(iter, m), iter(p)), [iter(map(iter, m)), p], map(iter, rows), [iter(row) for row in rows]]
+    forms += [(row for row in rows), iter([m, p]), ((list(row) for row in m), p), [[iter(row) for row in m], iter(p)]]
+    for form in forms:
+        assert gjk.Box((1, 1)).at(form).pose == (1, 0, 5, 0, 1, 6)
+
+
+class Frame:
+    """A table as others have it: mask is a method, and iteration gives the names of the columns."""
+
+    def __init__(self, table):
+        self.table = table
+
+    def mask(self, *_):
+        raise NotImplementedError
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self.table, dtype=dtype)
+
+    def __iter__(self):
+        return iter("abcdef"[: len(self.table)])
+
+
+@pytest.mark.parametrize("dtype", [float, int, object, ">f4"])
+def test_tables_that_are_no_arrays(dtype):
+    square = np.array([[1, 0, 0, 5], [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]], dtype)
+    assert gjk.Points(Frame(square[:, :3])) == gjk.Points(square[:, :3])
+    assert gjk.Box(Frame(square[1, 1:]).table) == gjk.Box((1, 0, 6))
+    assert gjk.Box(Frame(square[1, 1:])) == gjk.Box((1, 0, 6))
+    assert gjk.Box((1, 1, 1)).at(Frame(square)).pose == SHIFT
+
+
+def test_arrays_of_records():
+    cloud = np.array([(0, 0, 0), (1, 2, 3)], [("x", "f8"), ("y", "f4"), ("z", "i4")])
+    assert gjk.Points(cloud) == gjk.Points([(0, 0, 0), (1, 2, 3)])
+
+
 @pytest.mark.parametrize(
     "pose",
     [

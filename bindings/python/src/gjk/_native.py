@@ -10,7 +10,7 @@ from typing import Any, Callable, NamedTuple
 
 from ._gjk import ffi, lib
 from .coordinates import numbers
-from .errors import BadArgument
+from .errors import BadArgument, told
 
 __all__ = ["PRECISIONS", "Native", "NativeShape", "Variant", "ask_with_callbacks", "callback_handle", "variant"]
 
@@ -26,6 +26,8 @@ class Variant:
         self.name = f"gjk{dim}" + ("f" if precision == "float" else "")
         self.most: float = (2 - 2**-23) * 2.0**127 if precision == "float" else sys.float_info.max
         """The largest number."""
+        self.least: float = 2.0**-149 if precision == "float" else 2.0**-1074
+        """The smallest above 0."""
         self.distance = self.function("distance")
         self.intersect = self.function("intersect")
         self.penetration = self.function("penetration")
@@ -64,7 +66,7 @@ def variant(dim: int, precision: str) -> Variant:
     try:
         return _VARIANTS[dim, precision]
     except (KeyError, TypeError):
-        raise BadArgument(f'precision is "double" or "float", not {precision!r}') from None
+        raise BadArgument(f'precision is "double" or "float", not {told(precision)}') from None
 
 
 class Native(NamedTuple):

@@ -67,8 +67,10 @@ def shape_from_json(shape: Any, dim: int) -> Shape:
     if made.dim != dim:
         raise BadArgument(f"{kind}: {made.dim}-D in a {dim}-D case")
     made = made.at(shape.get("pose"))
-    radius = shape.get("radius") or 0.0
-    if radius and isinstance(made, (Sphere, Capsule)):
+    radius = shape.get("radius")
+    if radius is None or type(radius) in (int, float) and radius == 0:
+        return made
+    if isinstance(made, (Sphere, Capsule)):
         return Sum(made, Sphere(radius, dim=dim))  # adding the radii in Python would round
     return made.rounded(radius)
 
@@ -154,7 +156,7 @@ def _ask(case: dict[str, Any], asked: str) -> Result:
     if "a" not in case or "b" not in case:
         raise BadArgument("a case has two shapes, a and b")
     a, b = shape_from_json(case["a"], dim), shape_from_json(case["b"], dim)
-    given = case.get("options") or {}
+    given = {} if case.get("options") is None else case["options"]
     if not isinstance(given, dict):
         raise BadArgument(f"options is an object, not {told(given)}")
     unknown = [name for name in given if name not in OPTIONS["penetration"]]

@@ -6,10 +6,11 @@ Only the form is judged here. Whether a number is finite or of the right sign is
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 from typing import Any, Union
 
-from .errors import BadArgument
+from .errors import BadArgument, Error, told
 
 __all__ = ["Numbers", "PoseLike", "fault_in", "number", "number_fault", "numbers", "pose_numbers", "rows"]
 
@@ -21,17 +22,34 @@ PoseLike = Union[Numbers, Iterable[Numbers], tuple[Iterable[Numbers], Numbers]]
 
 
 def number(x: Any, what: str) -> float:
-    """x as a float."""
+    """x as a float: the one nearest to it."""
     if type(x) is float:
         return x
-    if isinstance(x, (str, bytes, bool)) or getattr(x, "dtype", None) == bool or getattr(x, "imag", 0) != 0:
-        raise BadArgument(f"{what}: {x!r} is not a real number")
+    if _is_no_real(x):
+        raise BadArgument(f"{what}: {told(x)} is not a real number")
     try:
+        if getattr(x, "ndim", 0) != 0:
+            raise TypeError
         return float(x)
     except TypeError:
         raise BadArgument(f"{what}: a {type(x).__name__} where a number is expected") from None
     except (ValueError, OverflowError) as wrong:
         raise BadArgument(f"{what}: {wrong}") from None
+
+
+def _is_no_real(x: Any) -> bool:
+    """Whether x is something else that float() would take, or take a part of: a text, a truth value, a complex number,
+    a span of time, a masked value."""
+    kind = getattr(getattr(x, "dtype", None), "kind", "")
+    return isinstance(x, (str, bytes, bytearray, bool, complex)) or kind in {*"bcmMSU"} or _hides(x)
+
+
+def _hides(x: Any) -> bool:
+    """Whether x is a masked array of NumPy with values that are masked."""
+    ma = sys.modules.get("numpy.ma")  # loaded, if x is one
+    if ma is None or not isinstance(x, ma.MaskedArray):
+        return False
+    return any(any(flags) if isinstance(flags, tuple) else flags for flags in ma.getmaskarray(x).ravel().tolist())
 
 
 def numbers(x: Any, what: str) -> tuple[float, ...]:
@@ -50,33 +68,47 @@ def rows(x: Any, what: str) -> tuple[tuple[float, ...], ...]:
 def _plain(x: Any, what: str) -> list[Any]:
     """x as a list, arrays through their buffer, which is much the faster way."""
     if isinstance(x, (str, bytes, bytearray)):
-        raise BadArgument(f"{what}: {x!r} is not a row of numbers")
-    mask = getattr(x, "mask", None)
-    if mask is not None and any(flag for flag in _flat(mask)):
+        raise BadArgument(f"{what}: {told(x)} is not a row of numbers")
+    if _hides(x):
         raise BadArgument(f"{what}: masked values are no numbers")
-    try:
-        buffer = memoryview(x)
-        if buffer.ndim:
-            return list(buffer.tolist())
-    except (TypeError, ValueError, BufferError, NotImplementedError):
-        pass  # no buffer, or one that memoryview does not read: iterate
+    table = _buffered(x)
+    if table is None:
+        x = _as_array(x)
+        table = _buffered(x)
+    if table is not None:
+        return table
     try:
         return list(x)
-    except TypeError:
-        raise BadArgument(f"{what}: {x!r} is not a row of numbers") from None
+    except Error:
+        raise
+    except (TypeError, ValueError) as wrong:
+        raise BadArgument(f"{what}: {told(x)} is not a row of numbers") from wrong
 
 
-def _flat(mask: Any) -> Iterable[bool]:
-    """The flags of a NumPy mask, one or an array."""
-    return getattr(mask, "flat", (mask,))
+def _buffered(x: Any) -> list[Any] | None:
+    """What the buffer of an array holds; None: no buffer, or one that memoryview does not read."""
+    try:
+        buffer = memoryview(x)
+        return list(buffer.tolist()) if buffer.ndim else None
+    except (TypeError, ValueError, BufferError, NotImplementedError):
+        return None
+
+
+def _as_array(x: Any) -> Any:
+    """A table that can be had as an array, such as one of pandas, which iterates over its names. Others as they are."""
+    try:
+        array = x.__array__()
+        return array if array.ndim else x
+    except Exception:  # none, or one that is not to be had just now
+        return x
 
 
 def pose_numbers(pose: Any, dim: int) -> tuple[float, ...]:
     """A pose in any of its forms as [m | p] by rows, dim * (dim + 1) numbers."""
-    items = _plain(pose, "pose")
+    items = [_plain(item, "pose") if _nested(item) else item for item in _plain(pose, "pose")]
     if not any(_nested(item) for item in items):
         return _flat_pose(numbers(items, "pose"), dim)
-    if len(items) == 2 and _nested(items[0]) and any(_nested(row) for row in _plain(items[0], "pose")):
+    if len(items) == 2 and _nested(items[0]) and any(_nested(row) for row in items[0]):
         m, p = rows(items[0], "pose"), numbers(items[1], "pose")
         table = tuple((*row, c) for row, c in zip(m, p)) if len(m) == len(p) else ()
     else:

@@ -54,11 +54,11 @@ class BadSupport(Error):
 
 
 def told(x: Any) -> str:
-    """A value in the words of a message, cut where it is long; its type where it has no words."""
+    """A value in the words of a message: a line, cut where it is long; its type where it has no words."""
     try:
-        words = repr(x)
+        words = " ".join(repr(x).split())
     except Exception:  # an integer of too many digits, lists nested too deep, or what a class of the caller's raises
-        return f"a {type(x).__name__}"
+        return f"some {type(x).__name__}"
     return words if len(words) <= 200 else f"{words[:200]}..."
 
 

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from enum import Enum
+from operator import index
 from typing import Any, NamedTuple
 
 from ._gjk import ffi
 from ._native import Variant, ask_with_callbacks, variant
-from .errors import BadArgument, Status, error
+from .coordinates import number
+from .errors import BadArgument, Status, error, told
 from .shapes import Shape
 
 __all__ = ["Cache", "Relation", "Result", "Separation", "distance", "intersect", "penetration"]
@@ -194,11 +196,11 @@ def penetration(
 def _workspace(v: Variant, corners: int) -> tuple[Any, int]:
     """Room for so many corners, and its bytes; none where C has as much of its own."""
     try:
-        size: int = v.workspace_size(corners)
+        size: int = v.workspace_size(_whole(corners))
     except (TypeError, OverflowError):
         size = 0
     if size == 0:
-        raise BadArgument(f"option corners is a whole number from 8 to 16000, not {corners!r}")
+        raise BadArgument(f"option corners is a whole number from 8 to 16000, not {told(corners)}")
     return (ffi.NULL, 0) if corners == OWN_CORNERS else (ffi.new("double[]", size // 8 + 1), size)
 
 
@@ -225,6 +227,37 @@ class _Options(NamedTuple):
 
 
 _DEFAULTS = _Options()
+_PLAIN = tuple(type(value) for value in _DEFAULTS)
+_REALS = tuple(name for name, value in _DEFAULTS._asdict().items() if type(value) is float)
+
+
+def _whole(x: Any) -> int:
+    """x, of any type of integers, or TypeError."""
+    if isinstance(x, bool):
+        raise TypeError
+    return index(x)
+
+
+def _plain(v: Variant, options: _Options) -> _Options:
+    """The options as numbers such as C has, none of which is taken for another there."""
+    if not isinstance(options.tight, bool):
+        raise BadArgument(f"option tight is True or False, not {told(options.tight)}")
+    if any(type(value) is not kind for value, kind in zip(options, _PLAIN)):
+        reals = {name: getattr(options, name) for name in _REALS}
+        reals = {name: number(value, f"option {name} is {told(value)}") for name, value in reals.items()}
+        options = options._replace(max_steps=_steps(options.max_steps), **reals)
+    if not 0 <= options.max_steps < 2**32:
+        raise BadArgument(f"option max_steps is {told(options.max_steps)}: not from 0 to 2**32 - 1")
+    if 0 < options.cutoff <= v.least / 2:
+        raise BadArgument(f"option cutoff is {options.cutoff}: 0 in this precision, where 0 stands for none")
+    return options
+
+
+def _steps(given: Any) -> int:
+    try:
+        return _whole(given)
+    except TypeError:
+        raise BadArgument(f"option max_steps is {told(given)}: not a whole number") from None
 
 
 def _ask(
@@ -239,10 +272,7 @@ def _ask(
     """The fields of a Result, or the exception that the status means."""
     if cache is not None and not isinstance(cache, Cache):
         raise BadArgument(f"cache: a Cache is expected, not {type(cache).__name__}")
-    if isinstance(options.max_steps, bool):
-        raise BadArgument(f"option max_steps is a whole number, not {options.max_steps!r}")
-    if not isinstance(options.tight, bool):
-        raise BadArgument(f"option tight is True or False, not {options.tight!r}")
+    options = _plain(v, options)
     native_a, native_b = a._native(v), b._native(v)  # held here until C has answered
     settings = ffi.NULL
     if cache is not None or options != _DEFAULTS:
@@ -279,20 +309,7 @@ def _fields(out: Any, status: Status) -> tuple[Any, ...]:
 def _settings(v: Variant, options: _Options, cache: Any, workspace: Any) -> Any:
     """The C struct; it does not keep alive what its pointers point to."""
     pointers = {"cache": cache, "workspace": workspace}
-    try:
-        return ffi.new(v.options_type, {"size": v.options_size, **pointers, **options._asdict()})
-    except (TypeError, OverflowError):
-        raise BadArgument(_misfit(v, options)) from None
-
-
-def _misfit(v: Variant, options: _Options) -> str:
-    """The first option that is no number such as its field holds."""
-    for name, value in options._asdict().items():
-        try:
-            ffi.new(v.options_type, {name: value})
-        except (TypeError, OverflowError) as wrong:
-            return f"option {name} is {value!r}: {wrong}"
-    return f"options {tuple(options)}"
+    return ffi.new(v.options_type, {"size": v.options_size, **pointers, **options._asdict()})
 
 
 def _fault(v: Variant, a: Shape, b: Shape, options: _Options) -> str:
@@ -305,5 +322,5 @@ def _fault(v: Variant, a: Shape, b: Shape, options: _Options) -> str:
             return f"{name}: radius is {shape.radius}, out of the range of this precision"
     for name, value in options._asdict().items():
         if not 0 <= value <= v.most:
-            return f"option {name} is {value}: negative, not finite or out of the range of this precision"
+            return f"option {name} is {value:g}: negative, not finite or out of the range of this precision"
     return "a point not finite, out of the range of this precision or beyond its reach; or points of no convex set"

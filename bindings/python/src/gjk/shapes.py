@@ -10,7 +10,7 @@ from typing import Any, Callable, ClassVar, TypeVar
 from ._gjk import ffi
 from ._native import Native, NativeShape, Variant, callback_handle
 from .coordinates import Numbers, PoseLike, fault_in, number, number_fault, numbers, pose_numbers, rows
-from .errors import BadArgument
+from .errors import BadArgument, told
 
 __all__ = [
     "Ball",
@@ -45,7 +45,7 @@ def _dimensions(dim: Any, name: str) -> int:
     except TypeError:
         whole = 0
     if whole not in (2, 3):
-        raise BadArgument(f"{name}: {dim!r} dimensions, where the integer 2 or 3 is expected")
+        raise BadArgument(f"{name}: {told(dim)} dimensions, where the integer 2 or 3 is expected")
     return whole
 
 
@@ -72,6 +72,8 @@ class Shape:
     radius: float
 
     def __init__(self, dim: int, pose: PoseLike | None, radius: float, **sizes: Any) -> None:
+        if type(self)._set is Shape._set:
+            raise BadArgument(f"{type(self).__name__}: a set of no kind; take one of the classes made from this one")
         dim = _dimensions(dim, type(self).__name__)
         for name, value in sizes.items():
             object.__setattr__(self, name, value)
@@ -90,7 +92,10 @@ class Shape:
 
     def rounded(self: S, radius: float) -> S:
         """This shape grown by a ball of that radius, on top of the radius it has."""
-        return self._with(radius=self.radius + number(radius, "radius"))
+        more = number(radius, "radius")
+        if more < 0:
+            raise BadArgument(f"radius is {more}: no shape is rounded by less than 0")
+        return self._with(radius=self.radius + more)
 
     def _with(self: S, **changes: Any) -> S:
         other = object.__new__(type(self))
@@ -203,9 +208,11 @@ class Points(Shape):
             if not table:
                 raise BadArgument("Points: no points, and no dim to tell the dimension")
             dim = len(table[0])
-        elif table and len(table[0]) != dim:
+        elif table and len(table[0]) != _dimensions(dim, "Points"):
             raise BadArgument(f"Points: {len(table[0])} coordinates in {dim}-D")
-        super().__init__(dim, pose, radius, points=table, indexed=bool(indexed))
+        if not isinstance(indexed, bool):
+            raise BadArgument(f"Points: indexed is True or False, not {told(indexed)}")
+        super().__init__(dim, pose, radius, points=table, indexed=indexed)
 
     def _keywords(self) -> dict[str, Any]:
         words = super()._keywords()
@@ -516,7 +523,7 @@ class Support(Shape):
         radius: float = 0.0,
     ) -> None:
         if not callable(function):
-            raise BadArgument(f"Support: {function!r} is not a function")
+            raise BadArgument(f"Support: {told(function)} is not a function")
         bound = None if reach is None else number(reach, "reach")
         super().__init__(dim, pose, radius, function=function, reach=bound)
 
