@@ -330,6 +330,12 @@ def test_output_that_fails_is_no_broken_bracket(scene, tmp_path, monkeypatch, ca
     assert capsys.readouterr().err.endswith("gjk report: no room\n") == (code == 2)
 
 
+def test_a_defect_is_no_broken_bracket(scene, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(truth, "find", lambda *_: 1 / 0)
+    assert main(["report", str(scene), "--out", str(tmp_path / "out")]) == 2
+    assert "ZeroDivisionError" in capsys.readouterr().err
+
+
 def test_a_closed_pipe_is_left_to_the_command(monkeypatch):
     """rich would end with 1, which says that a bracket misses the truth."""
 

@@ -7,6 +7,7 @@ import argparse
 import json
 import os
 import sys
+import traceback
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, TextIO
@@ -32,6 +33,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(chosen, wrong)
     except KeyboardInterrupt:
         return 130
+    except Exception:  # our own mistake, which Python would end with 1: that a bracket misses the truth
+        traceback.print_exc()
+        return 2
 
 
 def _failed(chosen: argparse.Namespace, wrong: object) -> int:
