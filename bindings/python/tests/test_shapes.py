@@ -233,6 +233,15 @@ def test_parts_have_an_end(couple):
             couple(one, other)
 
 
+def test_radii_are_added_and_rounded():
+    """A sum of two keeps both."""
+    sphere, aside = gjk.Sphere(1e16), gjk.Sphere(0).at((1e16 + 64, 0, 0))
+    assert sphere.rounded(1) == sphere
+    assert gjk.distance(sphere.rounded(1), aside, tight=True).lower > 63
+    both = gjk.distance(gjk.Sum(sphere, gjk.Sphere(1)), aside)
+    assert both.lower <= 63 <= both.upper
+
+
 @given(data=st.data(), dim=st.sampled_from([2, 3]))
 def test_json_and_back(data, dim):
     tells = data.draw(shapes(dim))

@@ -86,3 +86,36 @@ for _ in range(10):
 def test_threads_that_share_shapes_get_one_answer():
     done = subprocess.run([sys.executable, "-c", STRESS], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+SMALL = """
+import threading, gjk
+
+def unit(direction):
+    size = sum(x * x for x in direction) ** 0.5
+    return [x / size for x in direction]
+
+def work():
+    for shape in shapes:
+        for tight in (False, True):
+            gjk.penetration(shape, other, tight=tight)
+            gjk.distance(shape, other.at((400, 3, 2)), tight=tight)
+
+turn = [0.6, 0.8, 0, 0, -0.8, 0.6, 0, 0, 0, 0, 1, 0.1]
+shapes, other = [gjk.Box((1, 1, 1)), gjk.Support(unit, reach=1), gjk.Cylinder(1, 1)], gjk.Box((3, 2, 1), pose=turn)
+for i in range(3):
+    deep = shapes[i]
+    for _ in range(100):
+        deep = (gjk.Sum, gjk.Hull)[i % 2](gjk.Box((1, 1, 1)), deep, pose=turn)
+    shapes.append(deep)
+threading.stack_size(256 * 1024)
+thread = threading.Thread(target=work)
+thread.start()
+thread.join()
+"""
+
+
+def test_the_stack_that_a_thread_should_have():
+    """As README.md has it."""
+    done = subprocess.run([sys.executable, "-c", SMALL], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -12,9 +12,12 @@
     (-0.5, True)
 
 Every answer is a bracket, lower <= truth <= upper, that holds in floating point and whenever the query stops.
+It is of the numbers as they are held: what is given, of any kind of real numbers, is taken as the nearest double, and
+in precision "float" as the float nearest to that.
+
 Lengths are in any one unit; there are no angles. The poses put both shapes in one frame, and points and normals
 come back in that frame. Shapes are immutable; what is given to them is copied. Threads may share shapes, but not a
-cache.
+cache; README.md says how much stack they need.
 """
 
 from __future__ import annotations

@@ -29,11 +29,12 @@ class Result(NamedTuple):
     upper: float
     """Proven: the truth is not above."""
     point_a: tuple[float, ...]
-    """A point of a. Apart, point_a and point_b are as far from each other as upper, the closest pair where the bracket
-    is tight; ..."""
+    """A point of a. Where the shapes are apart, it is as far from point_b as upper says, and where the bracket is tight
+    the two are a closest pair. Where the shapes meet, it is by `penetration` the point of a that lies deepest in b;
+    otherwise it is the same point as point_b, by `intersect` to within the bracket."""
     point_b: tuple[float, ...]
-    """... meeting, they are one and the same point of both, by `intersect` to within its bracket; by `penetration` that
-    of a deepest in b, and that of b deepest in a."""
+    """A point of b, which stands to point_a as is said there. Where the shapes meet, it is by `penetration` the point
+    of b that lies deepest in a."""
     normal: tuple[float, ...]
     """Unit, from a to b, always; where lower is not 0, the direction that realises it."""
     status: Status
@@ -132,11 +133,12 @@ def distance(
 
     The query stops at upper - lower <= abs_tol + rel_tol * upper; both 0, the default: as tight as rounding allows.
     cutoff > 0: stop once the answer is proven above it (Status.DECIDED). max_steps 0: 256. slack is how far a
-    support may fall short of the farthest point, beyond its rounding; it widens the bracket. tight: points, boxes,
-    segments, capsules, triangles and spheres, in any pose and rounded or not, are answered to the last bit, by exact arithmetic;
-    for other shapes it changes nothing.
-    precision "float" rounds the shapes to single precision and solves there: the bracket is then of the distance
-    between the rounded shapes.
+    support may fall short of the farthest point, beyond its rounding; it widens the bracket. tight: of points, boxes,
+    segments, capsules, triangles and spheres, in any pose and rounded or not, value is within one unit in the last
+    place of the truth and the bracket two units wide, by exact arithmetic; for other shapes it changes nothing. Where
+    a pair has sizes that are some 1e-115 of others, these are left out, and the bracket is wider by that.
+    precision "float" rounds the shapes and the options to single precision and solves there: the bracket is then of
+    the distance between the rounded shapes. A cutoff that is 0 there is refused.
     """
     v = _variant(a, b, precision)
     options = _Options(cutoff, max_steps, abs_tol, rel_tol, slack, tight)
@@ -185,7 +187,8 @@ def penetration(
     for everyday bodies with corners, and for round ones unless they are all but concentric; C takes the room for them
     from its stack, other numbers cost an allocation a call. Round bodies in float are asked in double, whose corners
     take more room: of these it has 64, or some 0.6 of corners where that is more.
-    The other options are those of `distance`.
+    The other options are those of `distance`. tight goes for depths too, unless the polytope comes to its end in the
+    noise of nearly flat bodies: then the bracket is the usual one.
     """
     v = _variant(a, b, precision)
     workspace, size = _workspace(v, corners)
@@ -242,7 +245,7 @@ def _plain(v: Variant, options: _Options) -> _Options:
     """The options as numbers such as C has, none of which is taken for another there."""
     if not isinstance(options.tight, bool):
         raise BadArgument(f"option tight is True or False, not {told(options.tight)}")
-    if any(type(value) is not kind for value, kind in zip(options, _PLAIN)):
+    if tuple(map(type, options)) != _PLAIN:
         reals = {name: getattr(options, name) for name in _REALS}
         reals = {name: number(value, f"option {name} is {told(value)}") for name, value in reals.items()}
         options = options._replace(max_steps=_steps(options.max_steps), **reals)

@@ -91,7 +91,11 @@ class Shape:
         return self._with(pose=None if pose is None else pose_numbers(pose, self.dim))
 
     def rounded(self: S, radius: float) -> S:
-        """This shape grown by a ball of that radius, on top of the radius it has."""
+        """This shape grown by a ball of that radius, on top of the radius it has.
+
+        The two are added and the sum is rounded: Sphere(1e16).rounded(1) is Sphere(1e16). Sum(shape, Sphere(radius))
+        keeps both as they are.
+        """
         more = number(radius, "radius")
         if more < 0:
             raise BadArgument(f"radius is {more}: no shape is rounded by less than 0")
