@@ -62,7 +62,8 @@ static void draw_turn(real m[DIM * DIM])
 }
 
 /* b is turned as a is: to the bit, or but about the last axis, or to rounding of that. */
-static enum { UNLIKE, THE_SAME, COAXIAL, NEARLY, MANNERS } alike;
+enum manner { UNLIKE, THE_SAME, COAXIAL, NEARLY };
+static enum manner alike;
 
 static void turn_alike(const real m[DIM * DIM], real turned[DIM * DIM])
 {
@@ -331,11 +332,12 @@ static void it_is_as_high_as_curvature_says(void **state)
 static void limbs_that_are_alike_are_one(void **state)
 {
     static support_fn *const with_axes[] = {pub(support_cylinder), pub(support_disc), pub(support_segment)};
+    static const enum manner manners[] = {THE_SAME, COAXIAL, NEARLY};
     long found = 0, joined = 0, exact = 0;
     (void)state;
     state_of_draws = 15;
     for (int k = 0; k < PAIRS; k++) {
-        alike = THE_SAME + k % (MANNERS - THE_SAME);
+        alike = manners[k % 3];
         draw_pair(with_axes[k % 3], with_axes[k / 3 % 2], pow(10, any_between(-1, 0.6)));
         const int told = find_dip(k / 2 % 2);
         alike = UNLIKE;
