@@ -1479,26 +1479,32 @@ static void tips_next_to_axes(void **state)
     assert_true(is_share(near, pairs_per_family, 0.9));
 }
 
+/* Asks about the pair, b so near a: adds whether they overlap, are told to rounding then, and in how many steps. */
+static void count_deep(draws *d, double off, long *deep, long *tight, long *steps)
+{
+    V(result) r;
+    for (int i = 0; i < DIM; i++) {
+        drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)between(d, -off, off);
+    }
+    bind_pair(&drawn);
+    p = &drawn;
+    find_truth_of_pair();
+    ask_for_truth(NULL, &r);
+    *deep += meets;
+    *tight += meets && r.status == GJK_OK;
+    *steps += meets ? (long)r.steps : 0;
+}
+
 /* Cones deep in each other: the way out leads along a cone's edge, as a rule, where heights have a crease. */
 static void cones_in_each_other(void **state)
 {
     long deep = 0, tight = 0, steps = 0;
     (void)state;
     for (at = 0; at < 4 * pairs_per_family; at++) {
-        V(result) r;
         draws d = draws_from(seed, 2004, (uint64_t)at);
         draw_any(&d, &drawn.a, CONE);
         draw_any(&d, &drawn.b, CONE);
-        for (int i = 0; i < DIM; i++) {
-            drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)between(&d, -0.1, 0.1);
-        }
-        bind_pair(&drawn);
-        p = &drawn;
-        find_truth_of_pair();
-        ask_for_truth(NULL, &r);
-        deep += meets;
-        tight += meets && r.status == GJK_OK;
-        steps += meets ? (long)r.steps : 0;
+        count_deep(&d, 0.1, &deep, &tight, &steps);
     }
     printf("%-6s cones in each other: %ld deep, %ld as tight as rounding, %.1f steps\n", VARIANT, deep, tight,
            (double)steps / (double)deep);
@@ -1523,23 +1529,13 @@ static void bodies_upright(void **state)
     long deep = 0, tight = 0, steps = 0;
     (void)state;
     for (at = 0; at < 8 * pairs_per_family; at++) {
-        V(result) r;
         draws d = draws_from(seed, 2019, (uint64_t)at);
         draw_upright(&d, &drawn.a, kinds[at % 2]);
         draw_upright(&d, &drawn.b, kinds[at % 2 == 0 ? at / 2 % 5 : at / 2 % 3 * 2]);
         for (int i = 0; i < DIM * DIM; i++) {
             drawn.b.pose.m[i] = drawn.a.pose.m[i] * (real)(at % 3 == 0 ? 1 + below(&d, 4) * U : 1);
         }
-        for (int i = 0; i < DIM; i++) {
-            drawn.b.pose.p[i] = drawn.a.pose.p[i] + (real)between(&d, -0.3, 0.3);
-        }
-        bind_pair(&drawn);
-        p = &drawn;
-        find_truth_of_pair();
-        ask_for_truth(NULL, &r);
-        deep += meets;
-        tight += meets && r.status == GJK_OK;
-        steps += meets ? (long)r.steps : 0;
+        count_deep(&d, 0.3, &deep, &tight, &steps);
     }
     printf("%-6s bodies upright: %ld deep, %ld as tight as rounding, %.1f steps\n", VARIANT, deep, tight,
            (double)steps / (double)deep);

@@ -538,7 +538,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     own.held = 0;
     own.first = d->q->first_dip;
     if (!g->exact && know_first_bulk(d->q->first_dip, &d->q->d, d->a, d->b)) {
-        if (!own.first->found) join_alike(&own.first->bulk); /* where a dip was looked for there were none */
+        if (!own.first->found) join_alike(&own.first->bulk); /* else none are: bodies with a common axis are walked */
         d->seen = d->dips = &own;
     }
     d->known[0] = outline_of(d->a);

@@ -29,7 +29,7 @@ typedef struct limb {
     real length[DIM]; /*   along these, in the body's own unit; of a cone's also half its length, beside these */
     int stick;        /* or a segment's: */
     vec half, center; /*   half the way to its second end, and the middle between these, in that unit, too */
-    int joined, back; /* to this limb of the other body, and the other way */
+    int mate, back;   /* where it is joined: the limb that counts for it, and whether that leads the other way */
 } limb;
 
 /* What the heights of A - B are made of, in the frame: middle.n, and its limbs'. */
@@ -248,7 +248,7 @@ static void join_limbs(bulk *b, int i, int j, real sine, real uneven)
     for (int k = j; k < b->limbs; k++) b->limb[k] = b->limb[k + 1];
     limb *last = &b->limb[b->limbs];
     *last = m;
-    last->joined = i;
+    last->mate = i;
     last->back = dot(l->row[0], m.row[0]) < 0;
 }
 
@@ -1010,7 +1010,7 @@ static void put_straight(const bulk *of, int at, real share, vertex *c)
 {
     put_length(&of->limb[at], 0, share, c);
     for (int i = of->limbs; i < of->limbs + of->joined; i++)
-        if (of->limb[i].joined == at) put_length(&of->limb[i], 0, of->limb[i].back ? -share : share, c);
+        if (of->limb[i].mate == at) put_length(&of->limb[i], 0, of->limb[i].back ? -share : share, c);
 }
 
 /* The same of a round limb, at whose edge n is: of what is joined to it as that is turned along its own axes. */
@@ -1024,7 +1024,7 @@ static void put_round(const bulk *of, int at, const real share[ACROSS], vertex *
     }
     for (int i = of->limbs; i < of->limbs + of->joined; i++) {
         const limb *m = &of->limb[i];
-        if (m->joined != at) continue;
+        if (m->mate != at) continue;
         for (int k = 0; k < m->rows; k++) put_length(m, k, 2 * dot(m->row[k], p) / m->size, c);
     }
 }
