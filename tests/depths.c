@@ -929,6 +929,33 @@ static void hardly_thicker_than_rounding(void **state)
     assert_true(deep > 10 * pairs_per_family && widest <= WIDTH);
 }
 
+/* Narrow triangles and segments, turned alike, against themselves: flat, and no deeper than that way rounds. */
+static void flat_on_itself(void **state)
+{
+    double widest = 0;
+    (void)state;
+    for (int k = 0; k < 20 * (int)pairs_per_family; k++) {
+        V(result) r;
+        draws d = draws_from(seed, 1031, (uint64_t)k);
+        const double wide = magnitude(&d, -3, 0);
+        start_pair(DIM == 3 ? TRIANGLE : SEGMENT, DIM == 3 ? TRIANGLE : SEGMENT);
+        for (int i = 1; i < DIM; i++) {
+            for (int j = 0; j < DIM; j++) {
+                drawn.a.v[i][j] = (real)(between(&d, -1, 1) * (j == 1 ? 1 : wide));
+            }
+        }
+        turn(&d, &drawn.a, 100);
+        drawn.b = drawn.a;
+        bind_pair(&drawn);
+        find_truth_of_pair();
+        ask_for_truth(NULL, &r);
+        expect_answer("flat on itself, and not seen to touch", &r, r.upper == 0 && r.status == GJK_OK);
+        widest = fmax(widest, in_u((quad)width_of(&r), scale()));
+    }
+    printf("%-6s flat on itself: width %.1f\n", VARIANT, widest);
+    assert_true(widest <= WIDTH);
+}
+
 /* One cube on another: they touch, and the way out is the one they are stacked along. */
 static void stacked(void **state)
 {
@@ -2387,6 +2414,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(with_hardly_any_room),
         cmocka_unit_test(sharing_middles),
         cmocka_unit_test(hardly_thicker_than_rounding),
+        cmocka_unit_test(flat_on_itself),
 #if DIM == 3
         cmocka_unit_test(next_to_balls),
         cmocka_unit_test(aside_by_next_to_nothing),

@@ -215,22 +215,30 @@ static void sharpen_tips(polytope *p)
 /* Tips that stand off each other by less are as near as rounding may decide. */
 #define OFF ((real)0x1p-10)
 
-/* Square to DIM tips; to all the digits where they are near each other, or all but in line. */
-static vec normal_of_tips(polytope *p)
+/* Square to DIM tips, to all the digits. */
+static vec fine_normal_of_tips(polytope *p)
 {
-#if DIM == 2
     sharpen_tips(p);
-    vec n = reach_over(&p->tip[0], &p->tip[1]);
+#if DIM == 2
+    const vec n = reach_over(&p->tip[0], &p->tip[1]);
     return (vec){{n.c[1], -n.c[0]}};
 #else
-    vec n = cross(way_to(&p->tip[0], &p->tip[1]), way_to(&p->tip[0], &p->tip[2]));
+    vec n;
     twin fine[3];
-    if (length(n) > OFF) return n;
-    sharpen_tips(p);
     fine_cross(&p->tip[0], &p->tip[1], &p->tip[2], fine);
     for (int k = 0; k < 3; k++) n.c[k] = fine[k].high;
     return n;
 #endif
+}
+
+/* The same; to all the digits where they are near each other, or all but in line. */
+static vec normal_of_tips(polytope *p)
+{
+#if DIM == 3
+    const vec n = cross(way_to(&p->tip[0], &p->tip[1]), way_to(&p->tip[0], &p->tip[2]));
+    if (length(n) > OFF) return n;
+#endif
+    return fine_normal_of_tips(p);
 }
 
 /* A unit vector square to the tips so far, near that axis. */
@@ -260,6 +268,18 @@ static real rise_over_tips(polytope *p, vec n, tip *t)
 /* The ways off the tips, up and down each axis; a zero vector where that axis is not one. */
 static vec way_off(polytope *p, int i) { return mul(off_tips(p, i / 2), i & 1 ? (real)-1 : (real)1); }
 
+/* The bound from below of a flat difference, along the ways off it: off DIM tips to all the digits. */
+static void bound_flat(depth *d)
+{
+    polytope *p = &d->p;
+    const int all = p->tips == DIM;
+    const vec up = all ? fine_normal_of_tips(p) : axis(0, 0);
+    for (int i = 0; i < (all ? 2 : 2 * DIM); i++) {
+        const vec n = all ? mul(unit_of(up, up), i & 1 ? (real)-1 : (real)1) : way_off(p, i);
+        if (peak(n) > 0) bound_along(d, n);
+    }
+}
+
 /* Adds the corner farthest off the tips so far; the first that is far enough will do. STILL: there is none beyond
  * rounding, the difference is flat. CLOSE: the cores only touch. */
 static enum end spread_out(depth *d)
@@ -283,8 +303,7 @@ static enum end spread_out(depth *d)
         p->tip[p->tips++] = best;
         return OPEN;
     }
-    for (int i = 0; i < 2 * DIM && d->g->exact; i++)
-        if (peak(way_off(p, i)) > 0) bound_along(d, way_off(p, i));
+    if (d->g->exact) bound_flat(d);
     return STILL;
 }
 
