@@ -1569,6 +1569,25 @@ static void bodies_upright(void **state)
     assert_true(is_share(deep, 8 * pairs_per_family, 0.5) && is_share(tight, deep, 0.98) && steps < 12 * deep);
 }
 
+/* Boxes and segments in cylinders and discs, whose heights have edges and one disc: none takes a polytope, as a rule.
+ */
+static void edges_and_one_disc(void **state)
+{
+    long deep = 0, tight = 0, steps = 0;
+    (void)state;
+    for (at = 0; at < 8 * pairs_per_family; at++) {
+        draws d = draws_from(seed, 2021, (uint64_t)at);
+        body *const edged = at % 8 < 4 ? &drawn.a : &drawn.b;
+        draw_any(&d, edged, at % 2 ? SEGMENT : BOX);
+        draw_any(&d, edged == &drawn.a ? &drawn.b : &drawn.a, at % 4 < 2 ? CYLINDER : DISC);
+        edged->shape.radius = at % 2 ? (real)0.25 : 0;
+        count_deep(&d, 0.3, &deep, &tight, &steps);
+    }
+    printf("%-6s edges and one disc: %ld deep, %ld as tight as rounding, %.1f steps\n", VARIANT, deep, tight,
+           (double)steps / (double)deep);
+    assert_true(is_share(deep, 8 * pairs_per_family, 0.4) && is_share(tight, deep, 0.98) && steps < 6 * deep);
+}
+
 /* The turn to the way out led along the edge of one that is 250 times as wide as tall, and off it by what that bends.
  */
 static void spell_flat_cones(void)
@@ -2421,6 +2440,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(tips_next_to_axes),
         cmocka_unit_test(cones_in_each_other),
         cmocka_unit_test(bodies_upright),
+        cmocka_unit_test(edges_and_one_disc),
         cmocka_unit_test(cones_in_flat_ones),
         cmocka_unit_test(no_steps_for_a_surface),
 #endif

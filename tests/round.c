@@ -563,6 +563,93 @@ static void a_shallow_overlap_needs_few_corners(void **state)
 
 #endif
 
+#if DIM == 3
+/* The least height seen on a circle: among many, and then nearer and nearer to the best. */
+static real least_seen_on(const circle *c)
+{
+    arrow best = c->node[0].n;
+    for (int i = 0; i < 200; i++) {
+        const double off = i < 100 ? 4 : ldexp(1, -(i - 100) / 4);
+        const arrow n = unit2(add2(best, (arrow){(real)any_between(-off, off), (real)any_between(-off, off)}));
+        if (height_on(c, n) < height_on(c, best)) {
+            best = n;
+        }
+    }
+    return height_on(c, best);
+}
+
+/* Edges and one disc: bodies with flat ones and long ones among them, or turned alike. */
+static void draw_edges_and_disc(int k)
+{
+    support_fn *const edged[2] = {pub(support_box), pub(support_segment)};
+    support_fn *const disced[2] = {pub(support_cylinder), pub(support_disc)};
+    support_fn *const a = disced[k & 1], *const b = edged[k >> 1 & 1];
+    alike = (k >> 2) % 4 == 0 ? (enum manner)(1 + (k >> 4) % 3) : 0;
+    draw_pair(k & 64 ? a : b, k & 64 ? b : alike && k & 128 ? disced[k >> 8 & 1] : a, pow(10, any_between(-3, 0.3)));
+    for (int i = 0; i < 2; i++) {
+        numbers[i][k % 3] /= k % 5 == 0 ? 30 : 1;
+    }
+}
+
+/* Where circles say that no way out is shorter than their floor, none is, by 113 bits; no circle is held to be higher
+ * than it is; and they tell it as a rule. */
+static void no_way_is_lower_than_circles_say(void **state)
+{
+    long overlaps = 0, told = 0, apart = 0, drawn = 0;
+    double widest = 0;
+    (void)state;
+    state_of_draws = 17;
+    for (int k = 0; k < 4 * PAIRS; k++) {
+        static circles all;
+        bent b;
+        draw_edges_and_disc(k);
+        const int found = find_dip(k % 3 == 0);
+        if (!draw_circles(&all, &of_both)) {
+            continue;
+        }
+        drawn++;
+        real lowest = all.least;
+        for (int i = 0; i < all.count; i++) {
+            lowest = smaller(least_seen_on(&all.at[i]), lowest);
+        }
+        apart += !(lowest > 0);
+        const circles before = all;
+        for (int i = 0; i < all.count; i++) { /* each alone */
+            all = before;
+            all.at[0] = before.at[i];
+            all.count = 1;
+            assert_int_not_equal(are_circles_high(&all, least_seen_on(&all.at[0]) + all.off / 4), AROUND);
+        }
+        overlaps += lowest > CLEAR;
+        if (!find_least_of_all(&of_both, found ? &least : NULL, &b)) {
+            continue;
+        }
+        told += lowest > CLEAR;
+        const real seen = lowest_dip_seen();
+        lowest = smaller(height_of_bulk(&of_both, b.n), lowest);
+        widest = fmax(widest, (double)((lowest - b.floor) / all.off));
+        quad n[DIM], square = 0;
+        for (int i = 0; i < DIM; i++) {
+            n[i] = (quad)b.n.c[i];
+            square += n[i] * n[i];
+        }
+        assert_true(lowest > 0 && b.floor <= seen && (quad)b.floor <= height_along_way(n) / quad_sqrt(square));
+        for (int i = 0; i < TURNS_EACH; i++) {
+            square = 0;
+            for (int j = 0; j < DIM; j++) {
+                n[j] = (quad)any_between(-1, 1) * (i % 2 ? 1 : 0x1p-20) + (i % 2 ? 0 : (quad)b.n.c[j]);
+                square += n[j] * n[j];
+            }
+            assert_true((quad)b.floor <= height_along_way(n) / quad_sqrt(square));
+        }
+    }
+    alike = 0;
+    printf("circles: told of %ld of %ld overlaps, %ld apart, of %ld; at most %.2f of what is charged off\n", told,
+           overlaps, apart, drawn, widest);
+    assert_true(overlaps > 2 * PAIRS && apart > PAIRS / 2 && told > overlaps * 3 / 4 && widest <= 1.6);
+}
+#endif
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -571,6 +658,7 @@ int main(void)
 #if DIM == 3
         cmocka_unit_test(limbs_that_are_alike_are_one),
         cmocka_unit_test(edges_of_cones_are_bowed_enough),
+        cmocka_unit_test(no_way_is_lower_than_circles_say),
 #endif
         cmocka_unit_test(no_way_is_shorter_than_told),
         cmocka_unit_test(all_ways_are_as_high_as_told),

@@ -292,6 +292,9 @@ static int find_dip_of_all(const depth *d, bent *b)
 {
     const bulk *of = &d->dips->first->bulk;
     bent *first = first_dip_of(d);
+#if DIM == 3
+    if (find_least_of_all(of, first, b)) return 1;
+#endif
     if (first && known_room(of, first) > 0) {
         *b = *first;
         return 1;

@@ -8,6 +8,7 @@
 #ifndef GJK_CORE_PENETRATION_H
 #define GJK_CORE_PENETRATION_H
 
+#include "circles.h"
 #include "heights.h"
 #include "dip.h"
 #include "inball.h"
@@ -796,6 +797,13 @@ static int set_floor(dip *f, const bulk *of, bent *b, real h)
     f->planted = f->frayed = 0;
     f->everywhere = 0;
     f->held = -REAL_MAX;
+    if (b->floor > 0) {
+        f->at = f->corner.w; /* never planted */
+        f->far = 0;
+        f->floor = b->floor;
+        f->everywhere = 1;
+        return 1;
+    }
     if (!(f->height > CLEAR)) return 0;
     f->held = height_of_all(of, b, room, f->height, h - f->height);
     if (set_tip(f)) {
@@ -807,6 +815,13 @@ static int set_floor(dip *f, const bulk *of, bent *b, real h)
     f->floor = f->held;
     f->everywhere = f->floor > CLEAR && h - f->floor <= ALONE_OFF && is_level_around(b);
     return f->everywhere;
+}
+
+/* Whether circles have told the dip, and neither its bracket nor its corner leaves more to facets. */
+static int is_told_by_circles(const depth *d, const dip *f, real floor)
+{
+    const real width = -f->below - floor;
+    return floor > CLEAR && width <= 4 * d->q->d.doubt && !(d->q->d.lost > 0) && f->aside * f->aside <= width * floor;
 }
 
 /* Takes in what is known of A - B along b's n, where the height has a dip. -1: a support's answer was none. 0: nothing
@@ -840,6 +855,7 @@ static int take_dip(depth *d, bent *b, dip *f)
     f->kink_off = b->kink_off;
     f->sway = b->sway;
     f->slope = slope_of(b);
+    if (!is_told_by_circles(d, f, b->floor)) b->floor = 0;
     if (set_floor(f, &d->dips->first->bulk, b, h) && (f->far > 0 || f->below >= lower - 4 * q->d.doubt)) return 1;
     q->lower = lower; /* no facet may be near that n, for points to go with it */
     q->normal = normal;

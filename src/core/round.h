@@ -389,6 +389,7 @@ typedef struct bent {
     real share[ACROSS];     /*   what the rows count for */
     real sign[MOST_LIMBS];  /* as which straight limbs and cones' count, on slants by their shares as last known */
     real room;              /* see room_of_ball; below 0: it is not told yet */
+    real floor;             /* heights are no less, by circles; 0: that is not told */
 } bent;
 
 static inline int is_on_edge(const bent *b, int i) { return (int)(b->edges >> i & 1); }
@@ -727,7 +728,7 @@ static inline void start_bend(const rolling *s, bent *b)
     for (int j = 0; j < ACROSS; j++) b->slope[j] = dot(s->of->middle, b->e[j]);
     b->bow = b->kink = b->part = b->rim = (quadric){{{0}}};
     b->slope_off = 32 * UNIT;
-    b->bow_off = b->kink_off = b->height_off = b->sway = 0;
+    b->bow_off = b->kink_off = b->height_off = b->sway = b->floor = 0;
     b->room = -1;
     b->edges = s->edges;
     b->slants = s->slants;

@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: MIT */
+/* How deep sets of edges and one disc are (a box or a segment and a cylinder or a disc, two upright cylinders), without
+ * a polytope: their heights are least where n is square to an edge, or to the disc, and nowhere else (docs/bounds.md).
+ * So the great circles square to the edges are trip around, arc by arc, each in its own plane: the shadow of A - B
+ * there is a polygon and an ellipse. */
+#ifndef GJK_CORE_CIRCLES_H
+#define GJK_CORE_CIRCLES_H
+
+#include "round.h"
+
+#if DIM == 3
+
+/* A vector of the plane. */
+typedef struct arrow {
+    real x, y;
+} arrow;
+
+static inline real dot2(arrow a, arrow b) { return a.x * b.x + a.y * b.y; }
+static inline real cross2(arrow a, arrow b) { return a.x * b.y - a.y * b.x; }
+static inline arrow add2(arrow a, arrow b) { return (arrow){a.x + b.x, a.y + b.y}; }
+static inline arrow mul2(arrow a, real k) { return (arrow){a.x * k, a.y * k}; }
+static inline arrow left2(arrow a) { return (arrow){-a.y, a.x}; }
+static inline arrow unit2(arrow a) { return mul2(a, 1 / root(dot2(a, a))); }
+
+#define MOST_EDGES (MOST_LIMBS - 2)
+#define MOST_NODES (MOST_EDGES + 4)
+
+/* A direction on a circle, and how high A - B is along it. */
+typedef struct node {
+    arrow n;
+    real height;
+} node;
+
+/* Half a great circle, on which the middle counts for nothing or less: along the other half heights are no less. */
+typedef struct circle {
+    vec e[2];                       /* its plane */
+    arrow middle, edge[MOST_EDGES]; /* there; the disc's two rows, */
+    arrow row[2];
+    real area; /*   and of what these span at least */
+    int edges, nodes;
+    node node[MOST_NODES]; /* from its start to its end, by angles */
+} circle;
+
+/* All of them, where they are least, and what is charged for rounding. */
+typedef struct circles {
+    const bulk *of;
+    int disc, count;
+    circle at[MOST_EDGES];
+    real least, off;
+    vec n;
+} circles;
+
+/* ---- the shadow ---- */
+
+/* What the disc counts for, as a vector across its rows. */
+static inline arrow disc_along(const circle *c, arrow n) { return (arrow){dot2(c->row[0], n), dot2(c->row[1], n)}; }
+
+static real height_on(const circle *c, arrow n)
+{
+    const arrow rim = disc_along(c, n);
+    real sum = dot2(c->middle, n) + root(dot2(rim, rim));
+    for (int i = 0; i < c->edges; i++) sum += size(dot2(c->edge[i], n));
+    return sum;
+}
+
+static inline vec lifted(const circle *c, arrow n) { return add(mul(c->e[0], n.x), mul(c->e[1], n.y)); }
+static inline arrow in_plane(const circle *c, vec x) { return (arrow){dot(c->e[0], x), dot(c->e[1], x)}; }
+
+/* Whether it has a direction. */
+static inline int leads(arrow a) { return dot2(a, a) > REAL_MIN / UNIT; }
+
+/* Puts a direction, or the other way, where its angle is. */
+static void put_node(circle *c, arrow n)
+{
+    if (!leads(n)) return;
+    n = unit2(n);
+    if (cross2(c->node[0].n, n) < 0) n = mul2(n, -1);
+    int at = c->nodes++;
+    for (; at > 1 && cross2(c->node[at - 1].n, n) < 0; at--) c->node[at] = c->node[at - 1];
+    c->node[at].n = n;
+}
+
+/* Where the shadow's heights have edges, where the disc is narrow, and no two farther apart than a quarter. */
+static void put_nodes(circle *c, arrow axle)
+{
+    const arrow start = leads(c->middle) ? unit2(left2(c->middle)) : (arrow){1, 0};
+    c->nodes = 1;
+    c->node[0].n = start;
+    put_node(c, left2(start));
+    put_node(c, axle);
+    for (int i = 0; i < c->edges; i++) put_node(c, left2(c->edge[i]));
+    c->node[c->nodes++].n = mul2(start, -1);
+    for (int i = 0; i < c->nodes; i++) c->node[i].height = height_on(c, c->node[i].n);
+}
+
+/* The circle square to edge i. */
+static void draw_circle(const bulk *of, int rim, int i, circle *c)
+{
+    const vec edge = unit_size(of->limb[i].row[0]);
+    const limb *l = &of->limb[rim];
+    put_across(mul(edge, 1 / length(edge)), c->e);
+    for (int k = 0; k < 2; k++) c->e[k] = mul(c->e[k], (real)1.5 - dot(c->e[k], c->e[k]) / 2); /* as long as 1 can be */
+    c->middle = in_plane(c, of->middle);
+    c->edges = 0;
+    for (int j = 0; j < of->limbs; j++)
+        if (j != i && j != rim) c->edge[c->edges++] = in_plane(c, of->limb[j].row[0]);
+    for (int r = 0; r < 2; r++) c->row[r] = in_plane(c, l->row[r]);
+    c->area = larger(size(cross2(c->row[0], c->row[1])) - 16 * UNIT * l->size * l->size, 0);
+    put_nodes(c, in_plane(c, cross(l->row[0], l->row[1])));
+}
+
+/* ---- all circles ---- */
+
+static void take_least(circles *all, real height, vec n)
+{
+    if (!(height < all->least)) return;
+    all->least = height;
+    all->n = n;
+}
+
+/* What the limbs count for in all, at most. */
+static real sum_of_sizes(const bulk *of, const limb *rim)
+{
+    const vec u = rim->row[0], v = rim->row[1];
+    real sum = length(of->middle) + root(larger(dot(u, u), dot(v, v)) + size(dot(u, v)));
+    for (int i = 0; i < of->limbs; i++) sum += &of->limb[i] == rim ? 0 : of->limb[i].size;
+    return sum;
+}
+
+/* What rounding does to a floor, as derived in docs/bounds.md, and what is joined. */
+static real charge_circles(const bulk *of, const limb *rim)
+{
+    real off = UNIT * (33 * sum_of_sizes(of, rim) + 2);
+    for (int i = 0; i < of->limbs; i++) {
+        const limb *l = &of->limb[i];
+        off += l->stick ? 20 * UNIT : 0;
+        off += l->aside > 0 ? 2 * (l->aside + l->askew + 2 * UNIT * l->size) : 0;
+    }
+    return off;
+}
+
+/* The disc, if there is one, and all else are edges. -1: that is not so. */
+static int find_disc(const bulk *of)
+{
+    int rim = -1;
+    for (int i = 0; i < of->limbs; i++) {
+        const limb *l = &of->limb[i];
+        if (l->partial || l->rows > 2 || (l->rows == 2 && rim >= 0)) return -1;
+        if (l->rows == 2) rim = i;
+    }
+    return rim;
+}
+
+/* Square to the disc, both ways. 0: it is too narrow for that to be told. */
+static int look_along_spindle(circles *all)
+{
+    const limb *l = &all->of->limb[all->disc];
+    const spindle k = spindle_of(l);
+    const real far = length(k.way);
+    if (!(length(k.off) <= 64 * UNIT * far)) return 0;
+    const vec n = mul(k.way, 1 / far);
+    take_least(all, height_of_bulk(all->of, n), n);
+    take_least(all, height_of_bulk(all->of, mul(n, -1)), mul(n, -1));
+    return 1;
+}
+
+/* Looks along all that are to be looked along first. 0: the set is another. */
+static int draw_circles(circles *all, const bulk *of)
+{
+    all->of = of;
+    all->disc = find_disc(of);
+    all->count = 0;
+    all->least = REAL_MAX;
+    if (all->disc < 0 || of->limbs > MOST_EDGES + 1 || !look_along_spindle(all)) return 0;
+    all->off = charge_circles(of, &of->limb[all->disc]);
+    for (int i = 0; i < of->limbs; i++) {
+        if (i == all->disc) continue;
+        circle *c = &all->at[all->count++];
+        draw_circle(of, all->disc, i, c);
+        for (int k = 0; k < c->nodes; k++) take_least(all, c->node[k].height, lifted(c, c->node[k].n));
+    }
+    return all->count > 0;
+}
+
+/* ---- an arc ---- */
+
+/* From one direction to another, less than half a circle on; and how high A - B is to be. */
+typedef struct arc {
+    node from, to;
+    real high;
+} arc;
+
+/* How high a point of the shadow is along the arc's start, and how that changes on the way; by so much at least the
+ * shadow is curved there beyond that point. */
+typedef struct stance {
+    real high, slope, bow;
+} stance;
+
+/* Seen from its start, all of an arc of that sine and cosine is high enough. */
+static int is_high(const stance *s, real cosine, real sine, real high)
+{
+    const real over = s->high - s->bow, under = s->bow - high;
+    if (!(s->high >= high && s->bow + over * cosine + s->slope * sine >= high)) return 0;
+    if (s->slope >= 0 || s->slope * cosine - over * sine <= 0) return 1;
+    return under >= 0 && under * under >= over * over + s->slope * s->slope;
+}
+
+/* Where the disc is so much narrower than where it is widest, rounding may take its point too far off to tell by it how
+ * it is curved. */
+#define WELL_SEEN ((real)0.25)
+
+/* The corner of the edges that is the farthest along the arc's middle, and the point of the disc that is along its
+ * start, or, where that is not to be told, along the middle, too. */
+static stance stance_at(const circle *c, const limb *rim, const arc *a, arrow from, real back)
+{
+    const arrow middle = add2(a->from.n, a->to.n), left = mul2(left2(from), back), here = disc_along(c, from);
+    const arrow there = disc_along(c, middle);
+    arrow p = c->middle;
+    for (int i = 0; i < c->edges; i++) p = add2(p, mul2(c->edge[i], dot2(c->edge[i], middle) < 0 ? -1 : 1));
+    const real far = root(dot2(here, here)), share = dot2(a->from.n, a->to.n);
+    const int seen = far >= WELL_SEEN * rim->size;
+    const arrow d = leads(here) ? unit2(here) : leads(there) ? unit2(there) : (arrow){0, 0};
+    p = add2(p, add2(mul2(c->row[0], d.x), mul2(c->row[1], d.y)));
+    stance s = {dot2(p, from), dot2(p, left), 0};
+    if (!seen) return s;
+    const arrow other = disc_along(c, a->from.n), another = disc_along(c, a->to.n);
+    const real most = larger(dot2(other, other), dot2(another, another)) * 2 / (1 + share);
+    s.bow = smaller(c->area * c->area / (most * root(most)) * (1 - (real)0x1p-8), 2 * a->high);
+    return s;
+}
+
+/* From one of its ends, the arc is as high as it is to be. */
+static int is_arc_high(const circle *c, const limb *rim, const arc *a)
+{
+    const real cosine = dot2(a->from.n, a->to.n), sine = size(cross2(a->from.n, a->to.n));
+    const stance first = stance_at(c, rim, a, a->from.n, 1), last = stance_at(c, rim, a, a->to.n, -1);
+    return is_high(&first, cosine, sine, a->high) || is_high(&last, cosine, sine, a->high);
+}
+
+/* So often an arc is halved. */
+#define HALVINGS 10
+
+enum round_trip { AROUND, IS_LOWER, UNPROVEN };
+
+/* From one node to the next. IS_LOWER: below n it is lower. UNPROVEN: it is not told. */
+static enum round_trip go_along(const circle *c, const limb *rim, arc a, arrow *n)
+{
+    node next[HALVINGS];
+    int halved = 0;
+    for (;;) {
+        if (!(a.from.height >= a.high && a.to.height >= a.high)) return UNPROVEN;
+        if (is_arc_high(c, rim, &a)) {
+            if (halved == 0) return AROUND;
+            a.from = a.to;
+            a.to = next[--halved];
+            continue;
+        }
+        if (halved == HALVINGS) return UNPROVEN;
+        next[halved++] = a.to;
+        a.to.n = unit2(add2(a.from.n, a.to.n));
+        a.to.height = height_on(c, a.to.n);
+        *n = a.to.n;
+        if (a.to.height < a.high) return IS_LOWER;
+    }
+}
+
+/* Whether A - B is so high along all circles. IS_LOWER: all->n is where it is not. */
+static enum round_trip are_circles_high(circles *all, real high)
+{
+    for (int i = 0; i < all->count; i++) {
+        const circle *c = &all->at[i];
+        for (int k = 0; k + 1 < c->nodes; k++) {
+            arrow n;
+            const arc a = {c->node[k], c->node[k + 1], high};
+            const enum round_trip trip = go_along(c, &all->of->limb[all->disc], a, &n);
+            if (trip == IS_LOWER) all->n = lifted(c, n);
+            if (trip != AROUND) return trip;
+        }
+    }
+    return AROUND;
+}
+
+/* ---- the least of all ---- */
+
+/* So often a lower dip is looked for. */
+#define DESCENTS 4
+
+/* Finds the least height of all, from a dip that is known, if any. 0: it is not proven to be; else b's floor is what
+ * heights are at least. */
+static int find_least_of_all(const bulk *of, const bent *known, bent *b)
+{
+    circles all;
+    if (!draw_circles(&all, of)) return 0;
+    const real spare = all.off / 8;
+    int found = known != NULL;
+    if (found) *b = *known;
+    for (int i = 0; i < DESCENTS; i++) {
+        if (i > 0 || !found || all.least < height_of_bulk(of, b->n) - spare) found = find_least(of, all.n, NULL, b);
+        if (!found) return 0;
+        const real here = height_of_bulk(of, b->n), high = smaller(here, all.least) - spare;
+        b->floor = high - all.off;
+        if (!(here <= all.least + spare && b->floor > 0)) return 0;
+        const enum round_trip trip = are_circles_high(&all, high);
+        if (trip != IS_LOWER) return trip == AROUND;
+    }
+    return 0;
+}
+
+#endif
+
+#endif
