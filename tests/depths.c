@@ -1588,6 +1588,35 @@ static void edges_and_one_disc(void **state)
     assert_true(is_share(deep, 8 * pairs_per_family, 0.4) && is_share(tight, deep, 0.98) && steps < 6 * deep);
 }
 
+/* Rods across each other, so much longer than wide, yet wider than maps round: around the origin leads a surface of
+ * facets that are long and near, and slivers. */
+static void rods_across_each_other(void **state)
+{
+    static const enum kind kinds[] = {CYLINDER, POINTS, BOX, SEGMENT};
+    long deep = 0, tight = 0, steps = 0;
+    (void)state;
+    for (at = 0; at < 4 * pairs_per_family; at++) {
+        draws d = draws_from(seed, 2022, (uint64_t)at);
+        const real wide = (real)magnitude(&d, VARIANT_FLOAT ? -6 : -8, -3);
+        for (int k = 0; k < 2; k++) {
+            body *const b = k ? &drawn.b : &drawn.a;
+            draw_any(&d, b, k ? kinds[at % 4] : DIM == 2 ? BOX : CYLINDER);
+            b->radius *= wide;
+            for (int i = 0; i < DIM; i++) {
+                b->half[i] *= i < DIM - 1 ? wide : 1;
+                for (int j = 0; j < b->count; j++) {
+                    b->v[j][i] *= i < DIM - 1 ? wide : 1;
+                }
+            }
+            b->shape.radius = b->kind == SEGMENT ? wide : 0;
+        }
+        count_deep(&d, 0.3 * (double)wide, &deep, &tight, &steps);
+    }
+    printf("%-6s rods across each other: %ld deep, %ld as tight as rounding, %.1f steps\n", VARIANT, deep, tight,
+           (double)steps / (double)deep);
+    assert_true(is_share(deep, 4 * pairs_per_family, 0.3) && is_share(tight, deep, 0.999));
+}
+
 /* The turn to the way out led along the edge of one that is 250 times as wide as tall, and off it by what that bends.
  */
 static void spell_flat_cones(void)
@@ -2441,6 +2470,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(cones_in_each_other),
         cmocka_unit_test(bodies_upright),
         cmocka_unit_test(edges_and_one_disc),
+        cmocka_unit_test(rods_across_each_other),
         cmocka_unit_test(cones_in_flat_ones),
         cmocka_unit_test(no_steps_for_a_surface),
 #endif

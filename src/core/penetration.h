@@ -454,6 +454,29 @@ static inline int is_inner_for_certain(const polytope *p, const facet *f)
     return f->height * area > slop * UNIT;
 }
 
+/* The angle under which the origin sees the facet from its inner side, at least: in space that is half its tangent's
+ * arc, twice. area: of the normal as edges make it. */
+static real angle_above(const polytope *p, const facet *f, real area)
+{
+    vec way[DIM];
+    real sine = area, cosine = DIM == 2 ? 0 : 1;
+    for (int i = 0; i < DIM; i++) {
+        const vec w = p->tip[f->v[i]].w;
+        const real far = larger(length(w), f->height);
+        way[i] = mul(w, 1 / far);
+        sine *= (i == 0 ? f->height : 1) / far;
+    }
+    for (int i = DIM == 2; i < DIM; i++) cosine += dot(way[i], way[(i + 1) % DIM]);
+    return (DIM - 1) * sine / (sine + larger(cosine, 0) + 16 * UNIT);
+}
+
+/* The same at most, of a facet of so large a normal and so long an edge, no point of which is nearer than the floor. */
+static real angle_below(real normal, real long_edge, real floor)
+{
+    if (!(floor > 0)) return REAL_MAX;
+    return normal / floor / (DIM == 2 ? 1 : larger(floor, long_edge / 8));
+}
+
 /* Counts the solid angle under which the origin sees the facet. One whose side is certain counts for more than 0; one
  * too narrow to tell counts for little, either way. */
 static void count_angle(depth *d, facet *f, tally *t)
@@ -469,13 +492,12 @@ static void count_angle(depth *d, facet *f, tally *t)
     vec n = outward(p, f, &form);
     real area = length(n), slop = 16 * UNIT * (DIM == 2 ? long_edge : long_edge * long_edge) + TINY;
     if (form != THIN && area * f->height > slop * far) {
-        t->certain += area / far * (f->height / far) / (DIM == 2 ? 4 : 4 * far);
+        t->certain += angle_above(p, f, area) / 2;
         return;
     }
     int side = are_placed(d) ? inner_side(d, f) : -1;
-    real floor = larger(f->height, t->least); /* its own normal may lead away from the origin */
-    t->proven += side > 0;
-    if (side < 0) t->doubtful += floor > 0 ? (spread(n) + slop) / floor / (DIM == 2 ? 1 : floor) : REAL_MAX;
+    t->proven += side > 0; /* its own normal may lead away from the origin */
+    if (side < 0) t->doubtful += angle_below(spread(n) + slop, long_edge, larger(f->height, t->least));
 }
 
 /* Whether the surface goes around the origin, if all facets are off it, on their outer side: then how often it does is
