@@ -1588,6 +1588,83 @@ static void edges_and_one_disc(void **state)
     assert_true(is_share(deep, 8 * pairs_per_family, 0.4) && is_share(tight, deep, 0.98) && steps < 6 * deep);
 }
 
+/* Bodies in line with the frame, of one middle or almost, and of short sizes: there is no side on which a circle
+ * begins, and edges lie at both ends of the half that is looked along. */
+static void discs_of_one_middle(void **state)
+{
+    static const enum kind kinds[] = {BOX, CYLINDER, SEGMENT, DISC};
+    V(result) r;
+    double off = 0;
+    long deep = 0, tight = 0, steps = 0;
+    (void)state;
+    for (at = 0; at < 16 * pairs_per_family; at++) {
+        draws d = draws_from(seed, 2023, (uint64_t)at);
+        for (int k = 0; k < 2; k++) {
+            body *const b = k ? &drawn.b : &drawn.a;
+            draw_upright(&d, b, kinds[k ? at % 4 : 1 + at / 4 % 2 * 2]);
+            for (int i = 0; i < DIM * DIM; i++) {
+                b->pose.m[i] = i % (DIM + 1) == 0;
+            }
+            for (int i = 0; i < DIM; i++) {
+                b->half[i] = (real)(1 + below(&d, 99)) / 100;
+            }
+            b->radius = (real)(1 + below(&d, 99)) / 100;
+            b->half_length = (real)(1 + below(&d, 99)) / 100;
+        }
+        const long before = tight;
+        count_deep(&d, at % 3 ? 0 : magnitude(&d, -9, -1), &deep, &tight, &steps);
+        if (tight > before) {
+            ask(NULL, &r);
+            const double stands[2] = {(double)stands_off_body(&best, &p->a, r.point_a),
+                                      (double)stands_off_body(&best, &p->b, r.point_b)};
+            off = fmax(off, fmax(stands[0], stands[1]) / span());
+            for (int i = 0; i < DIM; i++) {
+                const double way = (double)r.value * (double)r.normal[i];
+                off = fmax(off, fabs((double)r.point_a[i] - (double)r.point_b[i] + way) / span());
+            }
+        }
+    }
+    printf("%-6s discs of one middle: %ld deep, %ld as tight as rounding, %.1f steps, points off by %.1f u\n", VARIANT,
+           deep, tight, (double)steps / (double)deep, off / U);
+    assert_true(off <= 64 * U && is_share(deep, 16 * pairs_per_family, 0.7) && is_share(tight, deep, 0.98));
+}
+
+/* An upright cylinder within another, and so much thinner that the squares of its numbers underflow. */
+static void hardly_any_radius(void **state)
+{
+    (void)state;
+    for (at = 0; at < 16 * pairs_per_family; at++) {
+        draws d = draws_from(seed, 2024, (uint64_t)at);
+        V(result) r;
+        const int least = VARIANT_FLOAT ? -62 : -510; /* halfway to where numbers lose digits */
+        const real hardly = (real)ldexp(between(&d, 0.5, 1), least - (int)below(&d, 8));
+        const real off[2] = {(real)below(&d, 4) / 32, (real)below(&d, 4) / 32};
+        for (int k = 0; k < 2; k++) {
+            body *const b = k ? &drawn.b : &drawn.a;
+            draw_upright(&d, b, k || at % 4 ? CYLINDER : BOX);
+            for (int i = 0; i < DIM * DIM; i++) {
+                b->pose.m[i] = i % (DIM + 1) == 0;
+            }
+            for (int i = 0; i < DIM; i++) {
+                b->pose.p[i] = k == 0 || i == 2 ? 0 : off[i];
+            }
+        }
+        drawn.a.pose.m[DIM + 1] += at % 2 ? (real)(64 * U * below(&d, 1000)) : 0;
+        drawn.b.radius = (real)0.6;
+        drawn.b.half_length = 1;
+        if (at % 3) {
+            drawn.a.radius = hardly;
+        } else {
+            drawn.a.half_length = hardly;
+        }
+        drawn.a.half[DIM - 1] = hardly;
+        bind_pair(&drawn);
+        p = &drawn;
+        find_truth_of_pair();
+        ask_for_truth(NULL, &r);
+    }
+}
+
 /* Rods across each other, so much longer than wide, yet wider than maps round: around the origin leads a surface of
  * facets that are long and near, and slivers. */
 static void rods_across_each_other(void **state)
@@ -2470,6 +2547,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(cones_in_each_other),
         cmocka_unit_test(bodies_upright),
         cmocka_unit_test(edges_and_one_disc),
+        cmocka_unit_test(discs_of_one_middle),
+        cmocka_unit_test(hardly_any_radius),
         cmocka_unit_test(rods_across_each_other),
         cmocka_unit_test(cones_in_flat_ones),
         cmocka_unit_test(no_steps_for_a_surface),

@@ -38,7 +38,8 @@ typedef struct circle {
     arrow row[2];
     real area; /*   and of what these span at least */
     int edges, nodes;
-    node node[MOST_NODES]; /* from its start to its end, by angles */
+    node node[MOST_NODES]; /* from its start to its end, */
+    real turn[MOST_NODES]; /*   by angles, as these grow */
 } circle;
 
 /* All of them, where they are least, and what is charged for rounding. */
@@ -46,8 +47,8 @@ typedef struct circles {
     const bulk *of;
     int disc, count;
     circle at[MOST_EDGES];
-    real least, off;
-    vec n;
+    real ends, least, off; /* the least along the disc's axis, and of all; */
+    vec n;                 /*   there */
 } circles;
 
 /* ---- the shadow ---- */
@@ -69,15 +70,28 @@ static inline arrow in_plane(const circle *c, vec x) { return (arrow){dot(c->e[0
 /* Whether it has a direction. */
 static inline int leads(arrow a) { return dot2(a, a) > REAL_MIN / UNIT; }
 
+/* How far on the half circle from start the direction is, from 0 to 2: exactly so far only at both ends and amid them,
+ * but more where the angle is larger, by more than rounding, and that is 2 UNIT of it. */
+static real turn_from(arrow start, arrow n)
+{
+    const real x = dot2(start, n), y = larger(cross2(start, n), 0);
+    return x < 0 ? 2 - y / (y - x) : y / (x + y);
+}
+
 /* Puts a direction, or the other way, where its angle is. */
 static void put_node(circle *c, arrow n)
 {
     if (!leads(n)) return;
     n = unit2(n);
     if (cross2(c->node[0].n, n) < 0) n = mul2(n, -1);
+    const real turn = turn_from(c->node[0].n, n);
     int at = c->nodes++;
-    for (; at > 1 && cross2(c->node[at - 1].n, n) < 0; at--) c->node[at] = c->node[at - 1];
+    for (; at > 1 && turn < c->turn[at - 1]; at--) {
+        c->node[at] = c->node[at - 1];
+        c->turn[at] = c->turn[at - 1];
+    }
     c->node[at].n = n;
+    c->turn[at] = turn;
 }
 
 /* Where the shadow's heights have edges, where the disc is narrow, and no two farther apart than a quarter. */
@@ -127,15 +141,20 @@ static real sum_of_sizes(const bulk *of, const limb *rim)
     return sum;
 }
 
+/* What is joined of limbs is as high as these to so much, but for how long they are; with what segments are mapped. */
+static real askew_of(const bulk *of)
+{
+    real sum = 0;
+    for (int i = 0; i < of->limbs; i++) sum += of->limb[i].askew + (of->limb[i].stick ? 20 * UNIT : 0);
+    for (int i = of->limbs; i < of->limbs + of->joined; i++) sum += of->limb[i].stick ? 20 * UNIT : 0;
+    return sum * (1 + 16 * UNIT);
+}
+
 /* What rounding does to a floor, as derived in docs/bounds.md, and what is joined. */
 static real charge_circles(const bulk *of, const limb *rim)
 {
-    real off = UNIT * (33 * sum_of_sizes(of, rim) + 2);
-    for (int i = 0; i < of->limbs; i++) {
-        const limb *l = &of->limb[i];
-        off += l->stick ? 20 * UNIT : 0;
-        off += l->aside > 0 ? 2 * (l->aside + l->askew + 2 * UNIT * l->size) : 0;
-    }
+    real off = UNIT * (37 * sum_of_sizes(of, rim) + 2) + askew_of(of);
+    for (int i = 0; i < of->limbs; i++) off += of->limb[i].askew > 0 ? 12 * UNIT * of->limb[i].size : 0;
     return off;
 }
 
@@ -172,6 +191,7 @@ static int draw_circles(circles *all, const bulk *of)
     all->count = 0;
     all->least = REAL_MAX;
     if (all->disc < 0 || of->limbs > MOST_EDGES + 1 || !look_along_spindle(all)) return 0;
+    all->ends = all->least;
     all->off = charge_circles(of, &of->limb[all->disc]);
     for (int i = 0; i < of->limbs; i++) {
         if (i == all->disc) continue;
@@ -224,8 +244,8 @@ static stance stance_at(const circle *c, const limb *rim, const arc *a, arrow fr
     stance s = {dot2(p, from), dot2(p, left), 0};
     if (!seen) return s;
     const arrow other = disc_along(c, a->from.n), another = disc_along(c, a->to.n);
-    const real most = larger(dot2(other, other), dot2(another, another)) * 2 / (1 + share);
-    s.bow = smaller(c->area * c->area / (most * root(most)) * (1 - (real)0x1p-8), 2 * a->high);
+    const real most = larger(dot2(other, other), dot2(another, another)) * 2 / (1 + share), cube = most * root(most);
+    if (cube > REAL_MIN / UNIT) s.bow = smaller(c->area * c->area / cube * (1 - (real)0x1p-8), 2 * a->high);
     return s;
 }
 
@@ -233,12 +253,14 @@ static stance stance_at(const circle *c, const limb *rim, const arc *a, arrow fr
 static int is_arc_high(const circle *c, const limb *rim, const arc *a)
 {
     const real cosine = dot2(a->from.n, a->to.n), sine = size(cross2(a->from.n, a->to.n));
-    const stance first = stance_at(c, rim, a, a->from.n, 1), last = stance_at(c, rim, a, a->to.n, -1);
-    return is_high(&first, cosine, sine, a->high) || is_high(&last, cosine, sine, a->high);
+    const stance first = stance_at(c, rim, a, a->from.n, 1);
+    if (is_high(&first, cosine, sine, a->high)) return 1;
+    const stance last = stance_at(c, rim, a, a->to.n, -1);
+    return is_high(&last, cosine, sine, a->high);
 }
 
-/* So often an arc is halved. */
-#define HALVINGS 10
+/* So often an arc is halved, its parts among that. */
+#define HALVINGS 32
 
 enum round_trip { AROUND, IS_LOWER, UNPROVEN };
 
@@ -246,17 +268,17 @@ enum round_trip { AROUND, IS_LOWER, UNPROVEN };
 static enum round_trip go_along(const circle *c, const limb *rim, arc a, arrow *n)
 {
     node next[HALVINGS];
-    int halved = 0;
+    int halved = 0, ahead = 0;
     for (;;) {
         if (!(a.from.height >= a.high && a.to.height >= a.high)) return UNPROVEN;
         if (is_arc_high(c, rim, &a)) {
-            if (halved == 0) return AROUND;
+            if (ahead == 0) return AROUND;
             a.from = a.to;
-            a.to = next[--halved];
+            a.to = next[--ahead];
             continue;
         }
-        if (halved == HALVINGS) return UNPROVEN;
-        next[halved++] = a.to;
+        if (halved++ == HALVINGS) return UNPROVEN;
+        next[ahead++] = a.to;
         a.to.n = unit2(add2(a.from.n, a.to.n));
         a.to.height = height_on(c, a.to.n);
         *n = a.to.n;
@@ -280,6 +302,68 @@ static enum round_trip are_circles_high(circles *all, real high)
     return AROUND;
 }
 
+/* ---- upright ---- */
+
+/* How high bodies of one axis are at least: the only circle is that square to it, where they are a disc's shadow, as
+ * high as that is narrow, off its middle. */
+static real floor_upright(const circles *all)
+{
+    const circle *c = &all->at[0];
+    const limb *l = &all->of->limb[all->disc];
+    const arrow u = c->row[0], v = c->row[1];
+    const real mean = (dot2(u, u) + dot2(v, v)) / 2, half = u.x * u.x + v.x * v.x - mean, mixed = u.x * u.y + v.x * v.y;
+    const real least = mean - root(half * half + mixed * mixed), off = length(all->of->middle);
+    if (all->count > 1 || !(2 * least > mean)) return -REAL_MAX;
+    const real charge = UNIT * (24 * (l->size + off) + 2) + (l->askew > 0 ? 12 * UNIT * l->size : 0);
+    const real around = root(least) - root(dot2(c->middle, c->middle)) - charge - askew_of(all->of);
+    return smaller(around, all->ends - all->off);
+}
+
+/* ---- where edges cross ---- */
+
+/* So often shares are told in turn. Of edges square to one another once will do. */
+#define SHARINGS 8
+
+/* Moves what the limb counts for, by so much, within its bounds: as much of the rest as there is along its rows. */
+static void share_rest(const limb *l, real *share, vec *rest)
+{
+    real square = 0, was[2];
+    for (int r = 0; r < l->rows; r++) {
+        const real rr = dot(l->row[r], l->row[r]);
+        was[r] = share[r];
+        share[r] -= rr > REAL_MIN / UNIT ? dot(*rest, l->row[r]) / rr : 0;
+        square += share[r] * share[r];
+    }
+    const real times = square > 1 ? 1 / root(square) : 1;
+    for (int r = 0; r < l->rows; r++) {
+        share[r] *= times;
+        *rest = add(*rest, mul(l->row[r], share[r] - was[r]));
+    }
+}
+
+/* The point that is farthest along n where that lies on more edges than tell their shares (round.h), as of a cylinder
+ * that stands on a box: each takes what the others leave aside of n. Nothing is said of how heights are bent there. */
+static void stand_on_edges(const circles *all, bent *b)
+{
+    const bulk *of = all->of;
+    vec rest = of->middle;
+    unsigned on = 0;
+    *b = (bent){.n = all->n, .height_off = REAL_MAX};
+    for (int i = 0; i < of->limbs; i++) {
+        const limb *l = &of->limb[i];
+        const bearing v = bearing_of(l, b->n);
+        if (size(l->rows == 1 ? v.here : v.far) <= 64 * UNIT * l->size) on |= 1u << i;
+        else if (l->rows == 1) rest = add(rest, mul(l->row[0], b->sign[i] = v.here < 0 ? -1 : 1));
+        else
+            for (int r = 0; r < 2; r++) rest = add(rest, mul(l->row[r], v.along.c[r] / v.far));
+    }
+    b->edges = on & (1u << all->disc);
+    for (; b->edges && b->rows < 2; b->rows++) b->of[b->rows] = all->disc;
+    for (int k = 0; k < SHARINGS; k++)
+        for (int i = 0; i < of->limbs; i++)
+            if (on >> i & 1) share_rest(&of->limb[i], i == all->disc ? b->share : &b->sign[i], &rest);
+}
+
 /* ---- the least of all ---- */
 
 /* So often a lower dip is looked for. */
@@ -291,17 +375,23 @@ static int find_least_of_all(const bulk *of, const bent *known, bent *b)
 {
     circles all;
     if (!draw_circles(&all, of)) return 0;
-    const real spare = all.off / 8;
-    int found = known != NULL;
-    if (found) *b = *known;
+    const real spare = all.off / 8, upright = floor_upright(&all);
+    if (known) *b = *known;
     for (int i = 0; i < DESCENTS; i++) {
-        if (i > 0 || !found || all.least < height_of_bulk(of, b->n) - spare) found = find_least(of, all.n, NULL, b);
-        if (!found) return 0;
-        const real here = height_of_bulk(of, b->n), high = smaller(here, all.least) - spare;
-        b->floor = high - all.off;
-        if (!(here <= all.least + spare && b->floor > 0)) return 0;
+        int found = i == 0 && known;
+        if (!found || all.least < height_of_bulk(of, b->n) - spare) found = find_least(of, all.n, NULL, b);
+        if (!found || all.least < height_of_bulk(of, b->n) - spare) stand_on_edges(&all, b);
+        const real high = smaller(height_of_bulk(of, b->n), all.least) - spare;
+        if (!(high > all.off)) return 0;
+        if (upright >= high - all.off) {
+            b->floor = upright;
+            return 1;
+        }
         const enum round_trip trip = are_circles_high(&all, high);
-        if (trip != IS_LOWER) return trip == AROUND;
+        if (trip == UNPROVEN) return 0;
+        if (trip == IS_LOWER) continue;
+        b->floor = high - all.off;
+        return 1;
     }
     return 0;
 }

@@ -490,14 +490,14 @@ static void count_angle(depth *d, facet *f, tally *t)
         long_edge = larger(spread(reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]])), long_edge);
     }
     vec n = outward(p, f, &form);
-    real area = length(n), slop = 16 * UNIT * (DIM == 2 ? long_edge : long_edge * long_edge) + TINY;
+    real area = length(n), slop = 32 * UNIT * (DIM == 2 ? long_edge : long_edge * long_edge) + TINY;
     if (form != THIN && area * f->height > slop * far) {
         t->certain += angle_above(p, f, area) / 2;
         return;
     }
     int side = are_placed(d) ? inner_side(d, f) : -1;
     t->proven += side > 0; /* its own normal may lead away from the origin */
-    if (side < 0) t->doubtful += angle_below(spread(n) + slop, long_edge, larger(f->height, t->least));
+    if (side < 0) t->doubtful += angle_below(spread(n) + slop, long_edge, t->least);
 }
 
 /* Whether the surface goes around the origin, if all facets are off it, on their outer side: then how often it does is
@@ -813,21 +813,19 @@ static int find_lowest_dip(const depth *d, int facets, bent *best)
 }
 
 /* What curvature and ellipsoids prove of the ways near the dip, whose corner is h high, and of all. 0: nothing. */
-static int set_floor(dip *f, const bulk *of, bent *b, real h)
+static int set_floor(dip *f, const bulk *of, bent *b, real h, int told)
 {
     const real room = known_room(of, b);
     f->planted = f->frayed = 0;
-    f->everywhere = 0;
-    f->held = -REAL_MAX;
-    if (b->floor > 0) {
+    f->everywhere = told;
+    f->held = b->floor > CLEAR ? b->floor : -REAL_MAX;
+    if (told || !(f->height > CLEAR)) {
         f->at = f->corner.w; /* never planted */
         f->far = 0;
-        f->floor = b->floor;
-        f->everywhere = 1;
-        return 1;
+        f->floor = f->held;
+        return f->held > CLEAR;
     }
-    if (!(f->height > CLEAR)) return 0;
-    f->held = height_of_all(of, b, room, f->height, h - f->height);
+    f->held = larger(height_of_all(of, b, room, f->height, h - f->height), f->held);
     if (set_tip(f)) {
         f->everywhere = is_least_of_all(b, room, h - f->floor, f->far);
         return 1;
@@ -839,11 +837,12 @@ static int set_floor(dip *f, const bulk *of, bent *b, real h)
     return f->everywhere;
 }
 
-/* Whether circles have told the dip, and neither its bracket nor its corner leaves more to facets. */
-static int is_told_by_circles(const depth *d, const dip *f, real floor)
+/* Whether circles have told the dip, and its bracket leaves no more to facets. Its corner may not be too far aside. */
+static int is_told_by_circles(const depth *d, const dip *f, bent *b)
 {
-    const real width = -f->below - floor;
-    return floor > CLEAR && width <= 4 * d->q->d.doubt && !(d->q->d.lost > 0) && f->aside * f->aside <= width * floor;
+    const real width = -f->below - b->floor;
+    if (!(!(d->q->d.lost > 0) && f->aside * f->aside <= width * b->floor)) b->floor = 0;
+    return b->floor > CLEAR && width <= 4 * d->q->d.doubt;
 }
 
 /* Takes in what is known of A - B along b's n, where the height has a dip. -1: a support's answer was none. 0: nothing
@@ -877,8 +876,8 @@ static int take_dip(depth *d, bent *b, dip *f)
     f->kink_off = b->kink_off;
     f->sway = b->sway;
     f->slope = slope_of(b);
-    if (!is_told_by_circles(d, f, b->floor)) b->floor = 0;
-    if (set_floor(f, &d->dips->first->bulk, b, h) && (f->far > 0 || f->below >= lower - 4 * q->d.doubt)) return 1;
+    const int told = is_told_by_circles(d, f, b);
+    if (set_floor(f, &d->dips->first->bulk, b, h, told) && (f->far > 0 || f->below >= lower - 4 * q->d.doubt)) return 1;
     q->lower = lower; /* no facet may be near that n, for points to go with it */
     q->normal = normal;
     return 0;

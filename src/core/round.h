@@ -221,6 +221,9 @@ static real sine_between(const spindle *k, const spindle *l)
     return length(sum) / (length(u) * length(v)) * (1 + 16 * UNIT);
 }
 
+/* Whether the squares that its size is made of have all their digits. */
+static inline int has_squares(const limb *l) { return l->size * l->size > 8 * REAL_MIN / UNIT; }
+
 /* By how much a limb of two rows is no circle, of one. */
 static inline real unevenness(const limb *l)
 {
@@ -256,7 +259,7 @@ static void join_limbs(bulk *b, int i, int j, real sine, real uneven)
 static int try_join(bulk *b, int i, int j, const spindle *k, const spindle *l)
 {
     const limb *x = &b->limb[i], *y = &b->limb[j];
-    if (x->rows != y->rows || x->partial || y->partial) return 0;
+    if (x->rows != y->rows || x->partial || y->partial || !has_squares(x) || !has_squares(y)) return 0;
     const real sine = sine_between(k, l), uneven = x->rows > 1 ? unevenness(x) + unevenness(y) : 0;
     if (!(sine <= ASIDE_MOST && uneven <= UNEVEN_MOST)) return 0;
     join_limbs(b, i, j, sine, uneven);
