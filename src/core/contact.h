@@ -316,9 +316,9 @@ static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
     const int taken = take_dip(d, &b, f);
     if (taken < 0) return -1;
     if (taken && !f->everywhere && f->held > CLEAR) {
-        *upper = smaller(*upper, -f->held);
         all->held = 1;
         f->everywhere = last || is_as_asked_by(d, f, -f->held);
+        if (f->everywhere || !(b.floor > 0)) *upper = smaller(*upper, -f->held); /* else points would not go with it */
         if (f->everywhere) {
             f->floor = f->held;
             f->far = 0;

@@ -837,11 +837,13 @@ static int set_floor(dip *f, const bulk *of, bent *b, real h, int told)
     return f->everywhere;
 }
 
-/* Whether circles have told the dip, and its bracket leaves no more to facets. Its corner may not be too far aside. */
+/* Whether circles have told the dip, and its bracket leaves no more to facets. Its corner may not be too far aside, nor
+ * beyond the bracket. */
 static int is_told_by_circles(const depth *d, const dip *f, bent *b)
 {
-    const real width = -f->below - b->floor;
-    if (!(!(d->q->d.lost > 0) && f->aside * f->aside <= width * b->floor)) b->floor = 0;
+    const real width = -f->below - b->floor, here = dot(f->n, f->corner.w);
+    const int stands = f->aside * f->aside <= width * b->floor && here >= b->floor && here <= -f->below;
+    if (!stands || d->q->d.lost > 0) b->floor = 0;
     return b->floor > CLEAR && width <= 4 * d->q->d.doubt;
 }
 
