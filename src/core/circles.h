@@ -150,11 +150,14 @@ static real askew_of(const bulk *of)
     return sum * (1 + 16 * UNIT);
 }
 
+/* By so much a limb that is joined may not be as long as both. */
+static inline real off_in_length(const limb *l) { return l->askew > 0 ? 12 * UNIT * l->size : 0; }
+
 /* What rounding does to a floor, as derived in docs/bounds.md, and what is joined. */
 static real charge_circles(const bulk *of, const limb *rim)
 {
     real off = UNIT * (37 * sum_of_sizes(of, rim) + 2) + askew_of(of);
-    for (int i = 0; i < of->limbs; i++) off += of->limb[i].askew > 0 ? 12 * UNIT * of->limb[i].size : 0;
+    for (int i = 0; i < of->limbs; i++) off += off_in_length(&of->limb[i]);
     return off;
 }
 
@@ -259,7 +262,7 @@ static int is_arc_high(const circle *c, const limb *rim, const arc *a)
     return is_high(&last, cosine, sine, a->high);
 }
 
-/* So often an arc is halved, its parts among that. */
+/* So often an arc and its parts are halved in all. */
 #define HALVINGS 32
 
 enum round_trip { AROUND, IS_LOWER, UNPROVEN };
@@ -302,11 +305,11 @@ static enum round_trip are_circles_high(circles *all, real high)
     return AROUND;
 }
 
-/* ---- upright ---- */
+/* ---- one edge ---- */
 
-/* How high bodies of one axis are at least: the only circle is that square to it, where they are a disc's shadow, as
- * high as that is narrow, off its middle. */
-static real floor_upright(const circles *all)
+/* How high a disc and one edge are at least, as of bodies along one axis: on the circle square to the edge there is the
+ * disc's shadow alone, as high as that is narrow, off its middle. */
+static real floor_of_one_edge(const circles *all)
 {
     const circle *c = &all->at[0];
     const limb *l = &all->of->limb[all->disc];
@@ -314,7 +317,7 @@ static real floor_upright(const circles *all)
     const real mean = (dot2(u, u) + dot2(v, v)) / 2, half = u.x * u.x + v.x * v.x - mean, mixed = u.x * u.y + v.x * v.y;
     const real least = mean - root(half * half + mixed * mixed), off = length(all->of->middle);
     if (all->count > 1 || !(2 * least > mean)) return -REAL_MAX;
-    const real charge = UNIT * (24 * (l->size + off) + 2) + (l->askew > 0 ? 12 * UNIT * l->size : 0);
+    const real charge = UNIT * (24 * (l->size + off) + 2) + off_in_length(l);
     const real around = root(least) - root(dot2(c->middle, c->middle)) - charge - askew_of(all->of);
     return smaller(around, all->ends - all->off);
 }
@@ -375,7 +378,7 @@ static int find_least_of_all(const bulk *of, const bent *known, bent *b)
 {
     circles all;
     if (!draw_circles(&all, of)) return 0;
-    const real spare = all.off / 8, upright = floor_upright(&all);
+    const real spare = all.off / 8, simple = floor_of_one_edge(&all);
     if (known) *b = *known;
     for (int i = 0; i < DESCENTS; i++) {
         int found = i == 0 && known;
@@ -383,8 +386,8 @@ static int find_least_of_all(const bulk *of, const bent *known, bent *b)
         if (!found || all.least < height_of_bulk(of, b->n) - spare) stand_on_edges(&all, b);
         const real high = smaller(height_of_bulk(of, b->n), all.least) - spare;
         if (!(high > all.off)) return 0;
-        if (upright >= high - all.off) {
-            b->floor = upright;
+        if (simple >= high - all.off) {
+            b->floor = simple;
             return 1;
         }
         const enum round_trip trip = are_circles_high(&all, high);
