@@ -1588,6 +1588,25 @@ static void edges_and_one_disc(void **state)
     assert_true(is_share(deep, 8 * pairs_per_family, 0.4) && is_share(tight, deep, 0.98) && steps < 6 * deep);
 }
 
+/* Asked so roughly, the points go with the bracket: as deep as it says, and aside by no more than the root of its
+ * width.
+ */
+static void ask_for_points(draws *d)
+{
+    V(options) o = default_options();
+    V(result) r;
+    double square = 0;
+    o.rel_tol = (real)magnitude(d, -10, -1);
+    ask(&o, &r);
+    expect_points_within(&r);
+    for (int i = 0; i < DIM; i++) {
+        const double way = (double)r.value * (double)r.normal[i];
+        square += pow((double)r.point_a[i] - (double)r.point_b[i] + way, 2);
+    }
+    const double width = (double)r.upper - (double)r.lower + 16 * U * span();
+    expect_answer("the points are aside of the bracket", &r, !(r.upper < 0) || square <= 64 * width * span());
+}
+
 /* Bodies in line with the frame, of one middle or almost, and of short sizes: there is no side on which a circle
  * begins, and edges lie at both ends of the half that is looked along. */
 static void discs_of_one_middle(void **state)
@@ -1613,6 +1632,7 @@ static void discs_of_one_middle(void **state)
         }
         const long before = tight;
         count_deep(&d, at % 3 ? 0 : magnitude(&d, -9, -1), &deep, &tight, &steps);
+        ask_for_points(&d);
         if (tight > before) {
             ask(NULL, &r);
             const double stands[2] = {(double)stands_off_body(&best, &p->a, r.point_a),
