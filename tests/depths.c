@@ -1657,7 +1657,7 @@ static void hardly_any_radius(void **state)
         draws d = draws_from(seed, 2024, (uint64_t)at);
         V(result) r;
         const int least = VARIANT_FLOAT ? -62 : -510; /* halfway to where numbers lose digits */
-        const real hardly = (real)ldexp(between(&d, 0.5, 1), least - (int)below(&d, 8));
+        const real hardly = (real)ldexp(between(&d, 0.5, 1), least - (int)below(&d, VARIANT_FLOAT ? 12 : 24));
         const real off[2] = {(real)below(&d, 4) / 32, (real)below(&d, 4) / 32};
         for (int k = 0; k < 2; k++) {
             body *const b = k ? &drawn.b : &drawn.a;
@@ -1669,7 +1669,7 @@ static void hardly_any_radius(void **state)
                 b->pose.p[i] = k == 0 || i == 2 ? 0 : off[i];
             }
         }
-        drawn.a.pose.m[DIM + 1] += at % 2 ? (real)(64 * U * below(&d, 1000)) : 0;
+        drawn.a.pose.m[DIM + 1] += (real)(at % 2 ? magnitude(&d, -12, -5) : 0); /* lost in its square */
         drawn.b.radius = (real)0.6;
         drawn.b.half_length = 1;
         if (at % 3) {
