@@ -646,7 +646,7 @@ static void no_way_is_lower_than_circles_say(void **state)
     alike = 0;
     printf("circles: told of %ld of %ld overlaps, %ld apart, of %ld; at most %.2f of what is charged off\n", told,
            overlaps, apart, drawn, widest);
-    assert_true(overlaps > 2 * PAIRS && apart > PAIRS / 2 && told * 100 > overlaps * 97 && widest <= 1.6);
+    assert_true(overlaps > 2 * PAIRS && apart > PAIRS / 2 && told * 1000 > overlaps * 991 && widest <= 1.6);
 }
 #endif
 
