@@ -14,10 +14,10 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xf173b546da234e16, 0x2e82a211eff3a3d4, 0x0d42325023e81926};
+static const uint64_t known[3] = {0xf173b546da234e16, 0x2e82a211eff3a3d4, 0x79cfee0fc0e07f55};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x200d79724743f855, 0x44d0d62eff8e6fab, 0xa4c41f3b36550a36};
+static const uint64_t known[3] = {0x200d79724743f855, 0x44d0d62eff8e6fab, 0x9f22f750f8b7dbc9};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0xdbb66ea3ebf51f1f};

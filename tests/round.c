@@ -571,11 +571,11 @@ static real least_seen_on(const circle *c)
     for (int i = 0; i < 200; i++) {
         const double off = i < 100 ? 4 : ldexp(1, -(i - 100) / 4);
         const arrow n = unit2(add2(best, (arrow){(real)any_between(-off, off), (real)any_between(-off, off)}));
-        if (height_on(c, n) < height_on(c, best)) {
+        if (node_at(c, n).height < node_at(c, best).height) {
             best = n;
         }
     }
-    return height_on(c, best);
+    return node_at(c, best).height;
 }
 
 /* Edges and one disc: bodies with flat ones and long ones among them, or turned alike. */

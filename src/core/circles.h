@@ -25,10 +25,11 @@ static inline arrow unit2(arrow a) { return mul2(a, 1 / root(dot2(a, a))); }
 #define MOST_EDGES (MOST_LIMBS - 2)
 #define MOST_NODES (MOST_EDGES + 4)
 
-/* A direction on a circle, and how high A - B is along it. */
+/* A direction on a circle, what the disc counts for along it, as a vector across its rows, and how long that is; and
+ * how high A - B is there. */
 typedef struct node {
-    arrow n;
-    real height;
+    arrow n, rim;
+    real far, height;
 } node;
 
 /* Half a great circle, on which the middle counts for nothing or less: along the other half heights are no less. */
@@ -38,8 +39,7 @@ typedef struct circle {
     arrow row[2];
     real area; /*   and of what these span at least */
     int edges, nodes;
-    node node[MOST_NODES]; /* from its start to its end, */
-    real turn[MOST_NODES]; /*   by angles, as these grow */
+    node node[MOST_NODES]; /* from its start to its end, by angles */
 } circle;
 
 /* All of them, where they are least, and what is charged for rounding. */
@@ -53,15 +53,15 @@ typedef struct circles {
 
 /* ---- the shadow ---- */
 
-/* What the disc counts for, as a vector across its rows. */
 static inline arrow disc_along(const circle *c, arrow n) { return (arrow){dot2(c->row[0], n), dot2(c->row[1], n)}; }
 
-static real height_on(const circle *c, arrow n)
+static node node_at(const circle *c, arrow n)
 {
-    const arrow rim = disc_along(c, n);
-    real sum = dot2(c->middle, n) + root(dot2(rim, rim));
-    for (int i = 0; i < c->edges; i++) sum += size(dot2(c->edge[i], n));
-    return sum;
+    node r = {.n = n, .rim = disc_along(c, n), .height = dot2(c->middle, n)};
+    r.far = root(dot2(r.rim, r.rim));
+    for (int i = 0; i < c->edges; i++) r.height += size(dot2(c->edge[i], n));
+    r.height += r.far;
+    return r;
 }
 
 static inline vec lifted(const circle *c, arrow n) { return add(mul(c->e[0], n.x), mul(c->e[1], n.y)); }
@@ -78,33 +78,41 @@ static real turn_from(arrow start, arrow n)
     return x < 0 ? 2 - y / (y - x) : y / (x + y);
 }
 
-/* Puts a direction, or the other way, where its angle is. */
-static void put_node(circle *c, arrow n)
+/* Directions on half a circle, by angles, as these grow. */
+typedef struct fan {
+    arrow n[MOST_NODES];
+    real turn[MOST_NODES];
+    int count;
+} fan;
+
+/* Puts one, or the other way, where its angle is. */
+static void put_direction(fan *f, arrow n)
 {
     if (!leads(n)) return;
     n = unit2(n);
-    if (cross2(c->node[0].n, n) < 0) n = mul2(n, -1);
-    const real turn = turn_from(c->node[0].n, n);
-    int at = c->nodes++;
-    for (; at > 1 && turn < c->turn[at - 1]; at--) {
-        c->node[at] = c->node[at - 1];
-        c->turn[at] = c->turn[at - 1];
+    if (cross2(f->n[0], n) < 0) n = mul2(n, -1);
+    const real turn = turn_from(f->n[0], n);
+    int at = f->count++;
+    for (; at > 1 && turn < f->turn[at - 1]; at--) {
+        f->n[at] = f->n[at - 1];
+        f->turn[at] = f->turn[at - 1];
     }
-    c->node[at].n = n;
-    c->turn[at] = turn;
+    f->n[at] = n;
+    f->turn[at] = turn;
 }
 
 /* Where the shadow's heights have edges, where the disc is narrow, and no two farther apart than a quarter. */
 static void put_nodes(circle *c, arrow axle)
 {
-    const arrow start = leads(c->middle) ? unit2(left2(c->middle)) : (arrow){1, 0};
-    c->nodes = 1;
-    c->node[0].n = start;
-    put_node(c, left2(start));
-    put_node(c, axle);
-    for (int i = 0; i < c->edges; i++) put_node(c, left2(c->edge[i]));
-    c->node[c->nodes++].n = mul2(start, -1);
-    for (int i = 0; i < c->nodes; i++) c->node[i].height = height_on(c, c->node[i].n);
+    fan f;
+    f.n[0] = leads(c->middle) ? unit2(left2(c->middle)) : (arrow){1, 0};
+    f.count = 1;
+    put_direction(&f, left2(f.n[0]));
+    put_direction(&f, axle);
+    for (int i = 0; i < c->edges; i++) put_direction(&f, left2(c->edge[i]));
+    f.n[f.count++] = mul2(f.n[0], -1);
+    c->nodes = f.count;
+    for (int i = 0; i < c->nodes; i++) c->node[i] = node_at(c, f.n[i]);
 }
 
 /* The circle square to edge i. */
@@ -200,66 +208,87 @@ static int draw_circles(circles *all, const bulk *of)
         if (i == all->disc) continue;
         circle *c = &all->at[all->count++];
         draw_circle(of, all->disc, i, c);
-        for (int k = 0; k < c->nodes; k++) take_least(all, c->node[k].height, lifted(c, c->node[k].n));
+        for (int k = 0; k < c->nodes; k++)
+            if (c->node[k].height < all->least) take_least(all, c->node[k].height, lifted(c, c->node[k].n));
     }
     return all->count > 0;
 }
 
 /* ---- an arc ---- */
 
-/* From one direction to another, less than half a circle on; and how high A - B is to be. */
+/* From one direction to another, less than half a circle on; the corner of the edges that is the farthest along all of
+ * it; and how high A - B is to be. */
 typedef struct arc {
     node from, to;
+    arrow corner;
     real high;
 } arc;
 
-/* How high a point of the shadow is along the arc's start, and how that changes on the way; by so much at least the
- * shadow is curved there beyond that point. */
+/* Between two nodes. */
+static arc arc_between(const circle *c, int from, real high)
+{
+    arc a = {c->node[from], c->node[from + 1], c->middle, high};
+    const arrow middle = add2(a.from.n, a.to.n);
+    for (int i = 0; i < c->edges; i++)
+        a.corner = add2(a.corner, mul2(c->edge[i], dot2(c->edge[i], middle) < 0 ? -1 : 1));
+    return a;
+}
+
+/* How high a point of the shadow is along one of the arc's ends, and how that changes on the way to the other. */
 typedef struct stance {
-    real high, slope, bow;
+    real high, slope;
 } stance;
 
-/* Seen from its start, all of an arc of that sine and cosine is high enough. */
-static int is_high(const stance *s, real cosine, real sine, real high)
+/* That corner and the point of the disc that is the farthest there or, where there is none, along the middle. */
+static stance stance_at(const circle *c, const arc *a, const node *end, real back)
 {
-    const real over = s->high - s->bow, under = s->bow - high;
-    if (!(s->high >= high && s->bow + over * cosine + s->slope * sine >= high)) return 0;
-    if (s->slope >= 0 || s->slope * cosine - over * sine <= 0) return 1;
-    return under >= 0 && under * under >= over * over + s->slope * s->slope;
+    const arrow left = mul2(left2(end->n), back), there = disc_along(c, left);
+    stance s = {dot2(a->corner, end->n), dot2(a->corner, left)};
+    if (leads(end->rim)) {
+        s.high += end->far;
+        s.slope += dot2(end->rim, there) / end->far;
+        return s;
+    }
+    const arrow d = disc_along(c, add2(a->from.n, a->to.n));
+    if (!leads(d)) return s;
+    s.high += dot2(unit2(d), end->rim);
+    s.slope += dot2(unit2(d), there);
+    return s;
 }
 
 /* Where the disc is so much narrower than where it is widest, rounding may take its point too far off to tell by it how
  * it is curved. */
 #define WELL_SEEN ((real)0.25)
 
-/* The corner of the edges that is the farthest along the arc's middle, and the point of the disc that is along its
- * start, or, where that is not to be told, along the middle, too. */
-static stance stance_at(const circle *c, const limb *rim, const arc *a, arrow from, real back)
+/* By so much at least the disc is curved along the arc. */
+static real bow_along(const circle *c, const arc *a, real cosine)
 {
-    const arrow middle = add2(a->from.n, a->to.n), left = mul2(left2(from), back), here = disc_along(c, from);
-    const arrow there = disc_along(c, middle);
-    arrow p = c->middle;
-    for (int i = 0; i < c->edges; i++) p = add2(p, mul2(c->edge[i], dot2(c->edge[i], middle) < 0 ? -1 : 1));
-    const real far = root(dot2(here, here)), share = dot2(a->from.n, a->to.n);
-    const int seen = far >= WELL_SEEN * rim->size;
-    const arrow d = leads(here) ? unit2(here) : leads(there) ? unit2(there) : (arrow){0, 0};
-    p = add2(p, add2(mul2(c->row[0], d.x), mul2(c->row[1], d.y)));
-    stance s = {dot2(p, from), dot2(p, left), 0};
-    if (!seen) return s;
-    const arrow other = disc_along(c, a->from.n), another = disc_along(c, a->to.n);
-    const real most = larger(dot2(other, other), dot2(another, another)) * 2 / (1 + share), cube = most * root(most);
-    if (cube > REAL_MIN / UNIT) s.bow = smaller(c->area * c->area / cube * (1 - (real)0x1p-8), 2 * a->high);
-    return s;
+    const real far = larger(a->from.far, a->to.far), most = far * far * 2 / (1 + cosine), cube = most * root(most);
+    return cube > REAL_MIN / UNIT ? smaller(c->area * c->area / cube * (1 - (real)0x1p-8), 2 * a->high) : 0;
+}
+
+/* An arc of that sine and cosine is as high as that by what is seen from one end, if the shadow is curved so beyond the
+ * point there. */
+static int is_high(const stance *s, real bow, real cosine, real sine, real high)
+{
+    const real over = s->high - bow, under = bow - high;
+    if (!(s->high >= high && bow + over * cosine + s->slope * sine >= high)) return 0;
+    if (s->slope >= 0 || s->slope * cosine - over * sine <= 0) return 1;
+    return under >= 0 && under * under >= over * over + s->slope * s->slope;
 }
 
 /* From one of its ends, the arc is as high as it is to be. */
 static int is_arc_high(const circle *c, const limb *rim, const arc *a)
 {
     const real cosine = dot2(a->from.n, a->to.n), sine = size(cross2(a->from.n, a->to.n));
-    const stance first = stance_at(c, rim, a, a->from.n, 1);
-    if (is_high(&first, cosine, sine, a->high)) return 1;
-    const stance last = stance_at(c, rim, a, a->to.n, -1);
-    return is_high(&last, cosine, sine, a->high);
+    const real least = WELL_SEEN * rim->size;
+    const stance first = stance_at(c, a, &a->from, 1);
+    if (is_high(&first, 0, cosine, sine, a->high)) return 1;
+    const stance last = stance_at(c, a, &a->to, -1);
+    if (is_high(&last, 0, cosine, sine, a->high)) return 1;
+    const real bow = bow_along(c, a, cosine);
+    return (a->from.far >= least && is_high(&first, bow, cosine, sine, a->high)) ||
+           (a->to.far >= least && is_high(&last, bow, cosine, sine, a->high));
 }
 
 /* So often an arc and its parts are halved in all. */
@@ -282,8 +311,7 @@ static enum round_trip go_along(const circle *c, const limb *rim, arc a, arrow *
         }
         if (halved++ == HALVINGS) return UNPROVEN;
         next[ahead++] = a.to;
-        a.to.n = unit2(add2(a.from.n, a.to.n));
-        a.to.height = height_on(c, a.to.n);
+        a.to = node_at(c, unit2(add2(a.from.n, a.to.n)));
         *n = a.to.n;
         if (a.to.height < a.high) return IS_LOWER;
     }
@@ -296,8 +324,7 @@ static enum round_trip are_circles_high(circles *all, real high)
         const circle *c = &all->at[i];
         for (int k = 0; k + 1 < c->nodes; k++) {
             arrow n;
-            const arc a = {c->node[k], c->node[k + 1], high};
-            const enum round_trip trip = go_along(c, &all->of->limb[all->disc], a, &n);
+            const enum round_trip trip = go_along(c, &all->of->limb[all->disc], arc_between(c, k, high), &n);
             if (trip == IS_LOWER) all->n = lifted(c, n);
             if (trip != AROUND) return trip;
         }

@@ -287,14 +287,12 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     return taken > 0 && goes_with_bound(q, other) ? other : NULL;
 }
 
-/* The dip near the one known best, or on the other side, that may be the least everywhere. 0: there is none. */
-static int find_dip_of_all(const depth *d, bent *b)
+/* The dip near the one known best, or on the other side, that may be the least everywhere as it is curved. 0: there is
+ * none. */
+static int find_curved_dip(const depth *d, bent *b)
 {
     const bulk *of = &d->dips->first->bulk;
     bent *first = first_dip_of(d);
-#if DIM == 3
-    if (find_least_of_all(of, first, b)) return 1;
-#endif
     if (first && known_room(of, first) > 0) {
         *b = *first;
         return 1;
@@ -303,22 +301,28 @@ static int find_dip_of_all(const depth *d, bent *b)
            (known_room(of, b) > 0 || is_centred(of, b->height));
 }
 
-/* The depth by a dip alone, before there is a surface; or at last, where none has come to an end. 0: none tells it. -1:
- * a support's answer was none. */
-static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
+#if DIM == 3
+static inline int find_dip_by_circles(const depth *d, bent *b)
 {
-    bent b;
-    if (!ROUND || !all || d->q->steps >= d->g->max_steps || !find_dip_of_all(d, &b)) return 0;
+    return find_least_of_all(&d->dips->first->bulk, first_dip_of(d), b);
+}
+#else
+#define find_dip_by_circles(d, b) 0
+#endif
+
+/* The depth by that dip alone. 0: it does not tell it. -1: a support's answer was none. */
+static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
+{
     dip *f = &all->at[last ? MOST_DIPS - 1 : 0];
     search *q = d->q;
     const real lower = q->lower;
     const vec normal = q->normal;
-    const int taken = take_dip(d, &b, f);
+    const int taken = take_dip(d, b, f);
     if (taken < 0) return -1;
     if (taken && !f->everywhere && f->held > CLEAR) {
         all->held = 1;
         f->everywhere = last || is_as_asked_by(d, f, -f->held);
-        if (f->everywhere || !(b.floor > 0)) *upper = smaller(*upper, -f->held); /* else points would not go with it */
+        if (f->everywhere || !(b->floor > 0)) *upper = smaller(*upper, -f->held); /* else points would not go with it */
         if (f->everywhere) {
             f->floor = f->held;
             f->far = 0;
@@ -332,6 +336,18 @@ static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
     q->lower = lower; /* to begin where the search has come to */
     q->normal = normal;
     return 0;
+}
+
+/* The depth by a dip alone, before there is a surface; or at last, where none has come to an end. How it is curved
+ * costs less than to go around circles. 0: none tells it. -1: a support's answer was none. */
+static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
+{
+    bent b;
+    int told = 0;
+    if (!ROUND || !all) return 0;
+    if (d->q->steps < d->g->max_steps && find_curved_dip(d, &b)) told = fathom_by(d, all, &b, upper, last);
+    if (told || d->q->steps >= d->g->max_steps || !find_dip_by_circles(d, &b)) return told;
+    return fathom_by(d, all, &b, upper, last);
 }
 
 /* The points are those of one corner. */
