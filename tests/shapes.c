@@ -465,6 +465,95 @@ static void nested_couples(void **state)
     }
 }
 
+#define LINKS 24
+
+/* Couples in couples, one in the other, as deep as anyone stacks them: each is off by some roundings more. */
+static void chains_of_couples(void **state)
+{
+    static body link[LINKS + 1], beside[LINKS];
+    (void)state;
+    for (uint64_t i = 0; i < 1000; i++) {
+        draws d = draws_from(4, 2, i);
+        const int links = 3 + below(&d, LINKS - 2);
+        real dir[DIM], reach = -1;
+        draw_round(&d, &link[0]);
+        for (int k = 0; k < links; k++) {
+            bind(&link[k]);
+            draw_round(&d, &beside[k]);
+            bind(&beside[k]);
+            start_body(&link[k + 1], below(&d, 2) ? SUM : HULL);
+            link[k + 1].part[0] = &link[k];
+            link[k + 1].part[1] = &beside[k];
+            if (below(&d, 8) == 0) draw_affine(&d, &link[k + 1]);
+            else turn(&d, &link[k + 1], 100);
+            for (int j = 0; j < DIM; j++) link[k + 1].pose.p[j] = (real)between(&d, -1, 1);
+            if (below(&d, 4) == 0) link[k + 1].shape.radius = (real)between(&d, 0, 0.5);
+        }
+        bind(&link[links]);
+        for (int n = 0; n < 12; n++) {
+            draw_direction(&d, n, dir);
+            check_direction(&link[links], dir, 1, &reach);
+        }
+    }
+}
+
+#define TURNS 400
+
+/* Has the body's map follow those that all are made of. */
+static void turn_quads(const body *b, quad all[DIM][DIM])
+{
+    quad before[DIM][DIM];
+    memcpy(before, all, sizeof before);
+    for (int i = 0; i < DIM; i++) {
+        for (int j = 0; j < DIM; j++) {
+            all[i][j] = 0;
+            for (int k = 0; k < DIM; k++) all[i][j] += (quad)b->pose.m[DIM * i + k] * before[k][j];
+        }
+    }
+}
+
+/* How far the ball of radius 1 reaches along dir, through that map. */
+static quad height_through(quad all[DIM][DIM], const quad *dir)
+{
+    quad back[DIM] = {0};
+    for (int i = 0; i < DIM; i++)
+        for (int j = 0; j < DIM; j++) back[j] += all[i][j] * dir[i];
+    return norm(back) / norm(dir);
+}
+
+/* Turned again and again a set reaches no farther: a ball of radius 1, hull after hull. The licence grows by some
+ * roundings with each, which are needed, and is not multiplied. */
+static void turned_again(void **state)
+{
+    static body link[TURNS + 1], beside;
+    draws d = draws_from(4, 3, 0);
+    quad all[DIM][DIM] = {{0}};
+    (void)state;
+    start_body(&beside, BALL);
+    beside.radius = (real)0.5;
+    bind(&beside);
+    for (int i = 0; i < DIM; i++) all[i][i] = 1;
+    for (int k = 0; k <= TURNS; k++) {
+        start_body(&link[k], k ? HULL : BALL);
+        link[k].radius = 1;
+        link[k].part[0] = &link[k - (k > 0)];
+        link[k].part[1] = &beside;
+        turn(&d, &link[k], 100);
+        bind(&link[k]);
+        for (int n = 0; n < 3; n++) {
+            real dir[DIM], x[DIM];
+            quad q[DIM], height = 0;
+            draw_direction(&d, n, dir);
+            const real reach = link[k].shape.support(link[k].shape.data, dir, x);
+            quad_direction(dir, q);
+            for (int i = 0; i < DIM; i++) height += q[i] / norm(q) * (quad)x[i];
+            assert_true(quad_abs(height - height_through(all, q)) <= (quad)reach * LICENCE * (quad)U);
+            assert_true(reach >= 1 && reach <= (real)(2 + 5 * k));
+        }
+        turn_quads(&link[k], all);
+    }
+}
+
 /* A point that is no number is found out wherever it stands in a cloud of any length. */
 static void none_among_many(void **state)
 {
@@ -553,6 +642,8 @@ int main(void)
 #endif
         cmocka_unit_test(couples),
         cmocka_unit_test(nested_couples),
+        cmocka_unit_test(chains_of_couples),
+        cmocka_unit_test(turned_again),
         cmocka_unit_test(none_among_many),
         cmocka_unit_test(far_clouds),
         cmocka_unit_test(cloud_reaches),

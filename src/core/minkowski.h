@@ -102,7 +102,7 @@ static inline int call(difference *d, body *k, vec dir, vec *x, real *reach)
 {
     d->calls++;
     *x = nowhere();
-    *reach = k->in ? k->in(k->unit, k->data, dir, x) : k->support(k->data, dir.c, x->c);
+    *reach = k->in ? reach_in(k->in, k->unit, k->data, dir, x) : k->support(k->data, dir.c, x->c);
     return is_length(*reach) && fits(k, *x);
 }
 
@@ -347,6 +347,12 @@ static vec offset_low(const pose *a, const pose *b)
     vec r;
     for (int i = 0; i < DIM; i++) r.c[i] = sum_of(b ? b->p[i] : 0, a ? -a->p[i] : 0).low;
     return r;
+}
+
+/* About how large the pair is: its cores, and how far they lie from each other. */
+static inline real size_of_pair(const shape *a, const shape *b)
+{
+    return size_through_map(a) + size_through_map(b) + spread(offset(a->pose, b->pose));
 }
 
 /* 0 where a map is too large for its norm to be a number. */

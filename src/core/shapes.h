@@ -15,15 +15,31 @@ typedef pub(ball) ball;
 typedef pub(ellipsoid) ellipsoid;
 typedef pub(couple) couple;
 
-/* A set's support in another unit: its point and its reach come times that power of two, so that what is small about a
- * small set is not lost to underflow on the way. NaN, and no point, where the data describe no set. */
-typedef real support_in(real unit, const void *data, vec dir, vec *out);
+/* No point of a set, nor one found, lies farther out than far; and what is found is off the set, or short, by no more
+ * than 8 roundings of due. Of a couple far grows with its parts' far, and due with how far they are and are due: so
+ * they are told apart until the contract asks for one number, which is both. */
+typedef struct reaches {
+    real far, due;
+} reaches;
 
-/* The same as the contract has it: in the caller's unit. */
+static inline reaches both_of(real reach) { return (reaches){reach, reach}; }
+
+/* A set's support in another unit: its point and its reaches come times that power of two, so that what is small about
+ * a small set is not lost to underflow on the way. NaN, and no point, where the data describe no set. */
+typedef reaches support_in(real unit, const void *data, vec dir, vec *out);
+
+/* As the contract has it, in that unit. */
+static inline real reach_in(support_in *f, real unit, const void *data, vec dir, vec *out)
+{
+    const reaches r = f(unit, data, dir, out);
+    return r.far >= r.due ? r.far : r.due; /* NaN where both are */
+}
+
+/* And in the caller's. */
 static real in_own_unit(support_in *f, const void *data, const real *dir, real *out)
 {
     vec x = nowhere();
-    real reach = f(1, data, load(dir), &x);
+    const real reach = reach_in(f, 1, data, load(dir), &x);
     store(out, x);
     return reach;
 }
@@ -183,12 +199,12 @@ GJK_API real pub(support_origin)(const void *unused, const real dir[DIM], real o
     return padded(0);
 }
 
-static real ball_in(real unit, const void *data, vec dir, vec *out)
+static reaches ball_in(real unit, const void *data, vec dir, vec *out)
 {
     const ball *b = data;
-    if (!b || !sized(&b->radius, 1)) return (real)NAN;
+    if (!b || !sized(&b->radius, 1)) return both_of((real)NAN);
     *out = along(dir, b->radius * unit);
-    return padded(b->radius * unit);
+    return both_of(padded(b->radius * unit));
 }
 
 GJK_API real pub(support_ball)(const void *data, const real dir[DIM], real out[DIM])
@@ -204,16 +220,16 @@ static inline vec stretched(vec x, vec by)
 
 /* The radii times the unit vector along (radii times dir). Where that is of no plain size both are brought to size
  * first: what underflows then is far below the rounding. */
-static real ellipsoid_in(real unit, const void *data, vec dir, vec *out)
+static reaches ellipsoid_in(real unit, const void *data, vec dir, vec *out)
 {
     const ellipsoid *e = data;
-    if (!e || !sized(e->radii, DIM)) return (real)NAN;
+    if (!e || !sized(e->radii, DIM)) return both_of((real)NAN);
     const vec r = mul(load(e->radii), unit);
     vec g = stretched(dir, r);
     if (unruly(dot(g, g))) g = stretched(unit_size(dir), mul(r, leveler(peak(r))));
     g = along(g, 1);
     EACH(out->c[i] = r.c[i] * g.c[i]);
-    return padded(peak(r));
+    return both_of(padded(peak(r)));
 }
 
 GJK_API real pub(support_ellipsoid)(const void *data, const real dir[DIM], real out[DIM])
@@ -242,12 +258,12 @@ static vec rim(vec dir, real radius, real height)
     return dir;
 }
 
-static real disc_in(real unit, const void *data, vec dir, vec *out)
+static reaches disc_in(real unit, const void *data, vec dir, vec *out)
 {
     const disc *d = data;
-    if (!d || !sized(&d->radius, 1)) return (real)NAN;
+    if (!d || !sized(&d->radius, 1)) return both_of((real)NAN);
     *out = rim(dir, d->radius * unit, 0);
-    return padded(d->radius * unit);
+    return both_of(padded(d->radius * unit));
 }
 
 GJK_API real pub(support_disc)(const void *data, const real dir[DIM], real out[DIM])
@@ -255,13 +271,13 @@ GJK_API real pub(support_disc)(const void *data, const real dir[DIM], real out[D
     return in_own_unit(disc_in, data, dir, out);
 }
 
-static real cylinder_in(real unit, const void *data, vec dir, vec *out)
+static reaches cylinder_in(real unit, const void *data, vec dir, vec *out)
 {
     const cylinder *c = data;
-    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return (real)NAN;
+    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return both_of((real)NAN);
     vec corner = {{c->radius * unit, c->half_length * unit, 0}};
     *out = rim(dir, corner.c[0], signed_as(corner.c[1], dir.c[2]));
-    return at_most(corner);
+    return both_of(at_most(corner));
 }
 
 GJK_API real pub(support_cylinder)(const void *data, const real dir[DIM], real out[DIM])
@@ -270,15 +286,15 @@ GJK_API real pub(support_cylinder)(const void *data, const real dir[DIM], real o
 }
 
 /* The apex is h up the axis, the rim h down and r out: the rim is farther where r |flat| > 2 h dir_z. */
-static real cone_in(real unit, const void *data, vec dir, vec *out)
+static reaches cone_in(real unit, const void *data, vec dir, vec *out)
 {
     const cone *c = data;
-    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return (real)NAN;
+    if (!c || !sized(&c->radius, 1) || !sized(&c->half_length, 1)) return both_of((real)NAN);
     vec d = unit_size(dir), corner = {{c->radius * unit, c->half_length * unit, 0}};
     real level = leveler(larger(peak(corner), REAL_MIN)), up = 2 * (corner.c[1] * level) * d.c[2];
     real flat = root(d.c[0] * d.c[0] + d.c[1] * d.c[1]);
     *out = corner.c[0] * level * flat > up ? rim(dir, corner.c[0], -corner.c[1]) : axis(2, corner.c[1]);
-    return at_most(corner);
+    return both_of(at_most(corner));
 }
 
 GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[DIM])
@@ -287,124 +303,14 @@ GJK_API real pub(support_cone)(const void *data, const real dir[DIM], real out[D
 }
 #endif
 
-/* What is known of a set before it is asked. */
-typedef struct view {
-    support_in *in; /* of a ready-made round set: to be asked instead */
-    real size;      /* to a binade or two, of a ready-made set; NaN: not known, or no set */
-} view;
-
-/* A power of two: the set's size in it is 1; 1 where that is not known. */
-static real own_unit(const view *k) { return k->size >= 0 ? leveler(k->size) : 1; }
-
-static inline view know(const shape *s);
-
-/* ---- two as one ---- */
-
-/* The direction as the part sees it, of a size that keeps its heights from underflow: those of a part whose size is not
- * known are then of the size that the couple sees. */
-static vec seen_by(const pose *p, real grows, real unit, vec dir)
-{
-    vec d = levelled(dir);
-    real lift = 16 / leveler(peak(dir));
-    if (p) {
-        if (grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
-        lift = grows > 0 ? lift / leveler(grows) : 0;
-    }
-    lift = larger(lift, unit);
-    return mul(d, smaller(larger(lift, 1), LIFT));
-}
-
-/* The set's own point, times the unit for its size, and its reach alike. It is surveyed where the part does not say:
- * what couples round on the way is charged by the reach, so it must be known, and from outside that can't be done. */
-static real core_in(const view *k, const shape *s, vec dir, vec *x)
-{
-    *x = nowhere();
-    if (k->in) return k->in(own_unit(k), s->data, dir, x);
-    real reach = s->support(s->data, dir.c, x->c);
-    if (reach == 0) reach = surveyed(s->support, s->data, 0);
-    if (faint(reach)) reach += 16 * REAL_MIN;
-    *x = mul(*x, own_unit(k));
-    return reach * own_unit(k);
-}
-
-/* A power of two that brings the map to size, and points of size 1 through it; of others it is not known what it would
- * do to them. */
-static real level_for(const view *k, real grows)
-{
-    return grows > 0 && k->size >= 0 ? smaller(leveler(grows), 1 / (16 * REAL_MIN)) : 1;
-}
-
-/* One of a couple in that unit, pose and radius included. Its reach counts all that passes through the rounding here,
- * what underflows too, so that the licence of 8 roundings holds for the couple. The part is of size 1 in a unit of its
- * own, its map is brought to size, and the exponents come together in one. */
-static real part_in(real unit, const shape *s, vec dir, vec *out)
-{
-    const pose *p = s->pose;
-    real grows = p ? stretch(p->m) : 1;
-    if (!s->support || !sized(&s->radius, 1) || !(grows <= REAL_MAX)) return (real)NAN;
-    view k = know(s);
-    real reach = core_in(&k, s, seen_by(p, grows, own_unit(&k), dir), out);
-    int found = reach > 0;
-    if (k.size == 0) reach = 0;
-    real level = level_for(&k, grows);
-    real back = grows > 0 ? raised(1, exponent_of(unit) - exponent_of(own_unit(&k)) - exponent_of(level)) : 0;
-    if (p) {
-        vec at = mul(load(p->p), unit);
-        real m[DIM * DIM]; /* not the point: where its unit can't bring it to size, it is small */
-        for (int i = 0; i < DIM * DIM; i++) m[i] = p->m[i] * level;
-        *out = add(mul(map(m, *out), back), at);
-        reach = 4 * (grows * level * reach) * back + spread(at);
-    } else {
-        *out = mul(*out, back);
-        reach *= back;
-    }
-    if (s->radius > 0) *out = add(*out, along(dir, s->radius * unit));
-    EACH(found &= bounded(out->c[i]));
-    return found ? reach + s->radius * unit + 64 * TINY : (real)NAN;
-}
-
-/* A couple's reach, which must be finite; so must its parts'. */
-static real joint(real reach_a, real reach_b, real reach)
-{
-    return reach_a <= REAL_MAX && reach_b <= REAL_MAX ? reach : (real)NAN;
-}
-
-static real sum_in(real unit, const void *data, vec dir, vec *out)
-{
-    const couple *c = data;
-    vec a, b;
-    if (!c) return (real)NAN;
-    real reach_a = part_in(unit, &c->a, dir, &a), reach_b = part_in(unit, &c->b, dir, &b);
-    *out = add(a, b);
-    return joint(reach_a, reach_b, 2 * (reach_a + reach_b));
-}
-
-GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DIM])
-{
-    return in_own_unit(sum_in, data, dir, out);
-}
-
-static real hull_in(real unit, const void *data, vec dir, vec *out)
-{
-    const couple *c = data;
-    vec a, b;
-    if (!c) return (real)NAN;
-    real reach_a = part_in(unit, &c->a, dir, &a), reach_b = part_in(unit, &c->b, dir, &b);
-    *out = dot(dir, a) >= dot(dir, b) ? a : b;
-    return joint(reach_a, reach_b, 2 * larger(reach_a, reach_b));
-}
-
-GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[DIM])
-{
-    return in_own_unit(hull_in, data, dir, out);
-}
-
-/* ---- what the search knows of them ---- */
+/* ---- what is known of them ---- */
 
 /* What data are made of: so many numbers and nothing else, or one of these. */
 #define CLOUD (-1)
 #define COUPLE (-2)
 #define UNKNOWN (-3)
+
+static support_in sum_in, hull_in;
 
 typedef struct ready {
     int data;
@@ -430,6 +336,15 @@ static inline ready ready_of(support_fn *f)
     return (ready){UNKNOWN, NULL};
 }
 
+/* What is known of a set before it is asked. */
+typedef struct view {
+    support_in *in; /* of a ready-made round set: to be asked instead */
+    real size;      /* to a binade or two, of a ready-made set; NaN: not known, or no set */
+} view;
+
+/* A power of two: the set's size in it is 1; 1 where that is not known. */
+static real own_unit(const view *k) { return k->size >= 0 ? leveler(k->size) : 1; }
+
 /* By its reach. That is the least number for a cloud of no size, which must not count as one of that size; so there the
  * points themselves are asked. */
 static real size_of_cloud(const points *p)
@@ -440,13 +355,22 @@ static real size_of_cloud(const points *p)
     return far;
 }
 
+static inline view know(const shape *s);
+
+/* Of a set through its map. */
+static real size_through_map(const shape *s)
+{
+    const real far = know(s).size;
+    real grows = 0;
+    for (int i = 0; i < DIM * DIM && s->pose; i++) grows = larger(size(s->pose->m[i]), grows);
+    return s->pose ? far * grows : far;
+}
+
 /* Of a part, as the couple sees it. */
 static real size_in_couple(const shape *s)
 {
-    real far = know(s).size, grows = 0;
-    if (!s->pose) return far + s->radius;
-    for (int i = 0; i < DIM * DIM; i++) grows = larger(size(s->pose->m[i]), grows);
-    return far * grows + s->radius + peak(load(s->pose->p));
+    const real far = size_through_map(s) + s->radius;
+    return s->pose ? far + peak(load(s->pose->p)) : far;
 }
 
 static real size_of_couple(const couple *c) { return size_in_couple(&c->a) + size_in_couple(&c->b); }
@@ -462,6 +386,163 @@ static inline view know(const shape *s)
     for (int i = 0; i < k.data; i++) far = larger(size(((const real *)s->data)[i]), far);
     return far <= REAL_MAX ? (view){k.in, far} : unknown;
 }
+
+/* ---- two as one ---- */
+
+/* The direction as the part sees it, of a size that keeps its heights from underflow: those of a part whose size is not
+ * known are then of the size that the couple sees. */
+static vec seen_by(const pose *p, real grows, real unit, vec dir)
+{
+    vec d = levelled(dir);
+    real lift = 16 / leveler(peak(dir));
+    if (p) {
+        if (grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
+        lift = grows > 0 ? lift / leveler(grows) : 0;
+    }
+    lift = larger(lift, unit);
+    return mul(d, smaller(larger(lift, 1), LIFT));
+}
+
+/* As a set says it that is none of a ready-made round kind. It is surveyed where it does not: what couples round on the
+ * way is charged by the reach, so it must be known, and from outside that can't be done. */
+static reaches reaches_told(const shape *s, vec dir, vec *x)
+{
+    const real reach = s->support(s->data, dir.c, x->c);
+    return both_of(reach == 0 ? surveyed(s->support, s->data, 0) : reach);
+}
+
+/* The set's own point, times the unit for its size, and its reaches alike. */
+static reaches core_in(const view *k, const shape *s, vec dir, vec *x)
+{
+    support_in *in = ready_of(s->support).in;
+    const real unit = own_unit(k);
+    *x = nowhere();
+    if (k->in) return k->in(unit, s->data, dir, x);
+    reaches r = in ? in(1, s->data, dir, x) : reaches_told(s, dir, x); /* a couple of unknown size, or corners */
+    if (faint(r.due)) r.due += 16 * REAL_MIN;
+    *x = mul(*x, unit);
+    return (reaches){r.far * unit, r.due * unit};
+}
+
+/* A power of two that brings the map to size, and points of size 1 through it; of others it is not known what it would
+ * do to them. */
+static real level_for(const view *k, real grows)
+{
+    return grows > 0 && k->size >= 0 ? smaller(leveler(grows), 1 / (16 * REAL_MIN)) : 1;
+}
+
+/* No vector grows by more under the map, of that stretch, than by this share of it: of a turn the stretch may be the
+ * root of DIM, which a couple of couples of couples would multiply. The largest row sum of m^T m is off by 3 roundings
+ * of the stretch's square, and some of itself. */
+static real share_of_stretch(const real *m, real grows)
+{
+    const real level = leveler(grows), square = (grows * level) * (grows * level);
+    vec column[DIM], row = axis(0, 0);
+    for (int j = 0; j < DIM; j++) EACH(column[j].c[i] = m[DIM * i + j] * level);
+    for (int j = 0; j < DIM; j++) {
+        row.c[j] += dot(column[j], column[j]);
+        for (int k = 0; k < j; k++) {
+            const real skew = size(dot(column[j], column[k]));
+            row.c[j] += skew;
+            row.c[k] += skew;
+        }
+    }
+    return smaller(root(peak(row) / square + 16 * UNIT), 1);
+}
+
+/* The reaches of a set through a map, and moved so far; r is its own, times the map's stretch. The direction it is
+ * asked along is off by 3 roundings of that, across a set twice as wide as it reaches; its point then by 3, and by 1 of
+ * all. How much less than it stretches a map grows lengths is asked of couples alone, whose reaches are two. */
+static reaches reaches_posed(reaches r, const real *m, real grows, real moved)
+{
+    const real share = r.due != r.far ? share_of_stretch(m, grows) : 1, whole = share * r.far + moved;
+    return (reaches){whole, share * r.due + 9 * r.far / 8 + whole / 8};
+}
+
+/* Of a set grown by a ball, whose point is off by 4.5 roundings of the radius, and then by 1 of all. */
+static reaches reaches_grown(reaches r, real radius)
+{
+    const real whole = r.far + radius;
+    return (reaches){whole, r.due + 9 * radius / 16 + whole / 8};
+}
+
+/* One of a couple in that unit, pose and radius included. Its reaches count all that passes through the rounding here,
+ * what underflows too, and their own. The part is of size 1 in a unit of its own, its map is brought to size, and the
+ * exponents come together in one. */
+static reaches part_in(real unit, const shape *s, vec dir, vec *out)
+{
+    const pose *p = s->pose;
+    real grows = p ? stretch(p->m) : 1;
+    if (!s->support || !sized(&s->radius, 1) || !(grows <= REAL_MAX)) return both_of((real)NAN);
+    view k = know(s);
+    reaches r = core_in(&k, s, seen_by(p, grows, own_unit(&k), dir), out);
+    int found = r.far > 0;
+    if (k.size == 0) r = both_of(0);
+    real level = level_for(&k, grows), radius = s->radius * unit;
+    real back = grows > 0 ? raised(1, exponent_of(unit) - exponent_of(own_unit(&k)) - exponent_of(level)) : 0;
+    if (p) {
+        vec at = mul(load(p->p), unit);
+        real m[DIM * DIM], all = grows * level; /* not the point: where its unit can't bring it to size, it is small */
+        for (int i = 0; i < DIM * DIM; i++) m[i] = p->m[i] * level;
+        *out = add(mul(map(m, *out), back), at);
+        r = (reaches){all * r.far * back, all * r.due * back};
+        r = reaches_posed(r, p->m, grows, spread(at));
+    } else {
+        *out = mul(*out, back);
+        r = (reaches){r.far * back, r.due * back};
+    }
+    if (s->radius > 0) {
+        *out = add(*out, along(dir, radius));
+        r = reaches_grown(r, radius);
+    }
+    EACH(found &= bounded(out->c[i]));
+    const real up = 1 + 16 * UNIT;
+    return found ? (reaches){r.far * up + 64 * TINY, r.due * up + 64 * TINY} : both_of((real)NAN);
+}
+
+static int reaches_finitely(reaches r) { return r.far <= REAL_MAX && r.due <= REAL_MAX; }
+
+/* Of a couple of such parts, which must be finite, too. */
+static reaches reaches_of_couple(reaches a, reaches b, real far, real due)
+{
+    return reaches_finitely(a) && reaches_finitely(b) ? (reaches){far, due} : both_of((real)NAN);
+}
+
+/* The sum of the points is off by 1 rounding of all. */
+static reaches sum_in(real unit, const void *data, vec dir, vec *out)
+{
+    const couple *c = data;
+    vec a, b;
+    if (!c) return both_of((real)NAN);
+    const reaches of_a = part_in(unit, &c->a, dir, &a), of_b = part_in(unit, &c->b, dir, &b);
+    const real far = (of_a.far + of_b.far) * (1 + 4 * UNIT);
+    *out = add(a, b);
+    return reaches_of_couple(of_a, of_b, far, of_a.due + of_b.due + far / 8);
+}
+
+GJK_API real pub(support_sum)(const void *data, const real dir[DIM], real out[DIM])
+{
+    return in_own_unit(sum_in, data, dir, out);
+}
+
+/* Heights are off by 3 roundings, so of two the lower may win by 6. */
+static reaches hull_in(real unit, const void *data, vec dir, vec *out)
+{
+    const couple *c = data;
+    vec a, b;
+    if (!c) return both_of((real)NAN);
+    const reaches of_a = part_in(unit, &c->a, dir, &a), of_b = part_in(unit, &c->b, dir, &b);
+    const real far = larger(of_a.far, of_b.far);
+    *out = dot(dir, a) >= dot(dir, b) ? a : b;
+    return reaches_of_couple(of_a, of_b, far, larger(of_a.due, of_b.due) + 3 * far / 4);
+}
+
+GJK_API real pub(support_hull)(const void *data, const real dir[DIM], real out[DIM])
+{
+    return in_own_unit(hull_in, data, dir, out);
+}
+
+/* ---- their corners ---- */
 
 /* Whether the set is known to be the hull of corners that can be listed. */
 static int has_corners(const shape *s)
