@@ -17,13 +17,13 @@
 static const uint64_t known[3] = {0xf173b546da234e16, 0x2e82a211eff3a3d4, 0x79cfee0fc0e07f55};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x200d79724743f855, 0x44d0d62eff8e6fab, 0x9f22f750f8b7dbc9};
+static const uint64_t known[3] = {0x74e089c84f2f2c4f, 0x44d0d62eff8e6fab, 0x2c192381494d4dab};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0xdbb66ea3ebf51f1f};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xde49ce68ad9b4c4b, 0x1696b69f80cb5f1a, 0x892c0a72a0b3d39d};
+static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x1696b69f80cb5f1a, 0x80c255f2ae78ef43};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -1694,7 +1694,7 @@ static void rods_across_each_other(void **state)
     (void)state;
     for (at = 0; at < 4 * pairs_per_family; at++) {
         draws d = draws_from(seed, 2022, (uint64_t)at);
-        const real wide = (real)magnitude(&d, VARIANT_FLOAT ? -6 : -8, -3);
+        const real wide = (real)magnitude(&d, -8, -3);
         for (int k = 0; k < 2; k++) {
             body *const b = k ? &drawn.b : &drawn.a;
             draw_any(&d, b, k ? kinds[at % 4] : DIM == 2 ? BOX : CYLINDER);
