@@ -554,6 +554,97 @@ static void turned_again(void **state)
     }
 }
 
+/* A set that is the origin, whose support says that it reaches a little. */
+static real next_to_nothing(const void *data, const real dir[DIM], real out[DIM])
+{
+    (void)dir;
+    memset(out, 0, DIM * sizeof *out);
+    return *(const real *)data;
+}
+
+/* Couple in couple around a set of unknown size, each grown by the least radius there is: every one rounds that. */
+static void least_radii(void **state)
+{
+    static V(couple) link[TURNS];
+    const real tiny = REAL_MIN * REAL_EPSILON;
+    real reach = 3 * tiny;
+    draws d = draws_from(4, 4, 0);
+    (void)state;
+    for (int k = 0; k < TURNS; k++) {
+        link[k].a =
+            (V(shape)){k ? V(support_sum) : next_to_nothing, k ? (void *)&link[k - 1] : (void *)&reach, NULL, tiny};
+        link[k].b = (V(shape)){V(support_origin), NULL, NULL, 0};
+        for (int n = 0; n < 3; n++) {
+            real dir[DIM], x[DIM];
+            quad q[DIM], height = 0;
+            draw_direction(&d, n, dir);
+            const quad licence = (quad)V(support_sum)(&link[k], dir, x) * LICENCE * (quad)U;
+            quad_direction(dir, q);
+            for (int i = 0; i < DIM; i++) height += q[i] / norm(q) * (quad)x[i];
+            assert_true(quad_abs(height - (quad)(k + 1) * (quad)tiny) <= licence);
+        }
+    }
+}
+
+/* A part so small that its size underflows, which a pose makes large again: it is no point. */
+static void part_of_no_number(void **state)
+{
+    const real small = sizeof(real) == sizeof(double) ? (real)1e-200 : (real)1e-25;
+    const real large = sizeof(real) == sizeof(double) ? (real)1e300 : (real)1e35;
+    V(pose) down, up, beside;
+    V(couple) c;
+    V(box) b;
+    V(result) r;
+    (void)state;
+    memset(&down, 0, sizeof down);
+    memset(&up, 0, sizeof up);
+    memset(&beside, 0, sizeof beside);
+    for (int i = 0; i < DIM; i++) {
+        b.half[i] = down.m[i * (DIM + 1)] = small;
+        up.m[i * (DIM + 1)] = large;
+        beside.m[i * (DIM + 1)] = 1;
+    }
+    c.a = (V(shape)){V(support_box), &b, &down, 0};
+    c.b = (V(shape)){V(support_origin), NULL, NULL, 0};
+    for (int k = 0; k < 4; k++) {
+        const real reached = small * large * small, off = k & 1 ? 3 * reached : reached / 2;
+        const V(shape) whole = {k & 2 ? V(support_sum) : V(support_hull), &c, &up, 0},
+                       point = {V(support_origin), NULL, &beside, 0};
+        beside.p[0] = off;
+        assert_true(V(penetration)(&whole, &point, NULL, &r) >= 0);
+        assert_true(r.lower <= off - (real)0.99 * reached && r.upper >= off - (real)1.01 * reached);
+        assert_true(V(intersect)(&whole, &point, NULL, &r) >= 0);
+        assert_true(k & 1 ? r.lower > 0 : !(r.lower > 0));
+    }
+}
+
+/* The least normal size through a map of almost the largest, asked along a way that hardly leaves an axis. */
+static void largest_of_maps(void **state)
+{
+    const int top = sizeof(real) == sizeof(double) ? 1022 : 126;
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        body part[2], b;
+        real dir[DIM], reach = -1;
+        start_body(&b, k & 1 ? SUM : HULL);
+        start_body(&part[0], BOX);
+        start_body(&part[1], POINTS);
+        part[1].count = 1;
+        memset(part[1].v, 0, sizeof part[1].v);
+        for (int i = 0; i < DIM; i++) {
+            part[0].half[i] = REAL_MIN;
+            part[0].pose.m[i * (DIM + 1)] = (real)ldexp(1, top + (k >> 1));
+            dir[i] = i ? (real)-ldexp(1, sizeof(real) == sizeof(double) ? -49 : -20) : 1;
+        }
+        for (int j = 0; j < 2; j++) {
+            b.part[j] = &part[j];
+            bind(&part[j]);
+        }
+        bind(&b);
+        check_direction(&b, dir, 1, &reach);
+    }
+}
+
 /* A point that is no number is found out wherever it stands in a cloud of any length. */
 static void none_among_many(void **state)
 {
@@ -644,6 +735,9 @@ int main(void)
         cmocka_unit_test(nested_couples),
         cmocka_unit_test(chains_of_couples),
         cmocka_unit_test(turned_again),
+        cmocka_unit_test(least_radii),
+        cmocka_unit_test(part_of_no_number),
+        cmocka_unit_test(largest_of_maps),
         cmocka_unit_test(none_among_many),
         cmocka_unit_test(far_clouds),
         cmocka_unit_test(cloud_reaches),

@@ -362,8 +362,9 @@ static real size_through_map(const shape *s)
 {
     const real far = know(s).size;
     real grows = 0;
-    for (int i = 0; i < DIM * DIM && s->pose; i++) grows = larger(size(s->pose->m[i]), grows);
-    return s->pose ? far * grows : far;
+    if (!s->pose) return far;
+    for (int i = 0; i < DIM * DIM; i++) grows = larger(size(s->pose->m[i]), grows);
+    return far > 0 && grows > 0 ? larger(far * grows, TINY) : far * grows; /* not 0: that is of no size at all */
 }
 
 /* Of a part, as the couple sees it. */
@@ -396,7 +397,10 @@ static vec seen_by(const pose *p, real grows, real unit, vec dir)
     vec d = levelled(dir);
     real lift = 16 / leveler(peak(dir));
     if (p) {
-        if (grows > 0) d = levelled(pull(p->m, mul(d, leveler(grows))));
+        const real level = leveler(grows);
+        real m[DIM * DIM];
+        for (int i = 0; i < DIM * DIM; i++) m[i] = p->m[i] * level;
+        if (grows > 0) d = levelled(pull(m, d));
         lift = grows > 0 ? lift / leveler(grows) : 0;
     }
     lift = larger(lift, unit);
@@ -411,6 +415,10 @@ static reaches reaches_told(const shape *s, vec dir, vec *x)
     return both_of(reach == 0 ? surveyed(s->support, s->data, 0) : reach);
 }
 
+/* What is due for products that underflow in the support of a small set, or, where its size is not known and its unit
+ * 1, in what the couple does with its points: 64 tiny. */
+#define UNDERFLOW (16 * REAL_MIN)
+
 /* The set's own point, times the unit for its size, and its reaches alike. */
 static reaches core_in(const view *k, const shape *s, vec dir, vec *x)
 {
@@ -419,7 +427,7 @@ static reaches core_in(const view *k, const shape *s, vec dir, vec *x)
     *x = nowhere();
     if (k->in) return k->in(unit, s->data, dir, x);
     reaches r = in ? in(1, s->data, dir, x) : reaches_told(s, dir, x); /* a couple of unknown size, or corners */
-    if (faint(r.due)) r.due += 16 * REAL_MIN;
+    if (r.due > TINY && r.due < (k->size >= 0 ? REAL_MIN : REAL_MIN / UNIT)) r.due += UNDERFLOW;
     *x = mul(*x, unit);
     return (reaches){r.far * unit, r.due * unit};
 }
@@ -533,6 +541,7 @@ static reaches hull_in(real unit, const void *data, vec dir, vec *out)
     if (!c) return both_of((real)NAN);
     const reaches of_a = part_in(unit, &c->a, dir, &a), of_b = part_in(unit, &c->b, dir, &b);
     const real far = larger(of_a.far, of_b.far);
+    if (!(peak(dir) >= (real)0.0625)) dir = levelled(dir); /* heights along it would underflow */
     *out = dot(dir, a) >= dot(dir, b) ? a : b;
     return reaches_of_couple(of_a, of_b, far, larger(of_a.due, of_b.due) + 3 * far / 4);
 }
