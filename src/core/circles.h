@@ -79,14 +79,14 @@ static real turn_from(arrow start, arrow n)
 }
 
 /* Directions on half a circle, by angles, as these grow. */
-typedef struct fan {
+typedef struct directions {
     arrow n[MOST_NODES];
     real turn[MOST_NODES];
     int count;
-} fan;
+} directions;
 
 /* Puts one, or the other way, where its angle is. */
-static void put_direction(fan *f, arrow n)
+static void put_direction(directions *f, arrow n)
 {
     if (!leads(n)) return;
     n = unit2(n);
@@ -104,7 +104,7 @@ static void put_direction(fan *f, arrow n)
 /* Where the shadow's heights have edges, where the disc is narrow, and no two farther apart than a quarter. */
 static void put_nodes(circle *c, arrow axle)
 {
-    fan f;
+    directions f;
     f.n[0] = leads(c->middle) ? unit2(left2(c->middle)) : (arrow){1, 0};
     f.count = 1;
     put_direction(&f, left2(f.n[0]));
