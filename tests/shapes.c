@@ -586,6 +586,26 @@ static void least_radii(void **state)
     }
 }
 
+/* A set that is one point near the origin, and says so. */
+static real some_tiny(const void *data, const real dir[DIM], real out[DIM])
+{
+    next_to_nothing(data, dir, out);
+    out[0] = *(const real *)data;
+    return out[0] < 0 ? -out[0] : out[0];
+}
+
+/* Of two points the one that is farther along a direction so short that heights underflow. */
+static void hull_along_hardly_anything(void **state)
+{
+    const real far = 1000 * REAL_MIN * REAL_EPSILON, back = -far;
+    const V(couple) c = {{some_tiny, &back, NULL, 0}, {some_tiny, &far, NULL, 0}};
+    real dir[DIM] = {(real)1e-9}, x[DIM];
+    (void)state;
+    assert_true(V(support_hull)(&c, dir, x) > 0 && x[0] == far);
+    dir[0] = (real)-1e-9;
+    assert_true(V(support_hull)(&c, dir, x) > 0 && x[0] == back);
+}
+
 /* A part so small that its size underflows, which a pose makes large again: it is no point. */
 static void part_of_no_number(void **state)
 {
@@ -736,6 +756,7 @@ int main(void)
         cmocka_unit_test(chains_of_couples),
         cmocka_unit_test(turned_again),
         cmocka_unit_test(least_radii),
+        cmocka_unit_test(hull_along_hardly_anything),
         cmocka_unit_test(part_of_no_number),
         cmocka_unit_test(largest_of_maps),
         cmocka_unit_test(none_among_many),
