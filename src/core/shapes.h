@@ -390,6 +390,12 @@ static inline view know(const shape *s)
 
 /* ---- two as one ---- */
 
+/* A map times a power of two. */
+static void scale_map(const real *m, real level, real scaled[DIM * DIM])
+{
+    for (int i = 0; i < DIM * DIM; i++) scaled[i] = m[i] * level;
+}
+
 /* The direction as the part sees it, of a size that keeps its heights from underflow: those of a part whose size is not
  * known are then of the size that the couple sees. */
 static vec seen_by(const pose *p, real grows, real unit, vec dir)
@@ -397,9 +403,8 @@ static vec seen_by(const pose *p, real grows, real unit, vec dir)
     vec d = levelled(dir);
     real lift = 16 / leveler(peak(dir));
     if (p) {
-        const real level = leveler(grows);
-        real m[DIM * DIM];
-        for (int i = 0; i < DIM * DIM; i++) m[i] = p->m[i] * level;
+        real m[DIM * DIM]; /* not the direction, which would lose digits to the largest maps */
+        scale_map(p->m, leveler(grows), m);
         if (grows > 0) d = levelled(pull(m, d));
         lift = grows > 0 ? lift / leveler(grows) : 0;
     }
@@ -491,7 +496,7 @@ static reaches part_in(real unit, const shape *s, vec dir, vec *out)
     if (p) {
         vec at = mul(load(p->p), unit);
         real m[DIM * DIM], all = grows * level; /* not the point: where its unit can't bring it to size, it is small */
-        for (int i = 0; i < DIM * DIM; i++) m[i] = p->m[i] * level;
+        scale_map(p->m, level, m);
         *out = add(mul(map(m, *out), back), at);
         r = (reaches){all * r.far * back, all * r.due * back};
         r = reaches_posed(r, p->m, grows, spread(at));
