@@ -300,6 +300,10 @@ static inline real doubt_of(const difference *d, real a, real b, real c)
     return UNIT * ((real)(d->a.posed ? 20 : 16) * a + (real)(d->b.posed ? 20 : 16) * b + 10 * c);
 }
 
+/* A slack, and what couples around the one that falls short by it may add to that: 16 UNIT of it each (docs/bounds.md).
+ */
+#define SLACKENED ((real)1 + (real)0x1p-10)
+
 /* With both reaches known: the scale, and what follows from it. 0 where the pair overflows its number format. */
 static int settle(difference *d, real slack)
 {
@@ -325,8 +329,7 @@ static int settle(difference *d, real slack)
     }
     d->doubt = doubt_of(d, a, b, c) + d->lost;
     d->slack = 0; /* and no 0 times infinity */
-    if (slack > 0)
-        d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * (1 + 256 * UNIT);
+    if (slack > 0) d->slack = (slack * (d->a.stretch * d->scale) + slack * (d->b.stretch * d->scale)) * SLACKENED;
     d->slack = smaller(d->slack, REAL_MAX);
     lay_side_by_side(d);
     return d->doubt <= REAL_MAX;
