@@ -485,17 +485,6 @@ static inline int are_boxes(const shape *a, const shape *b)
     return a->support == pub(support_box) && b->support == pub(support_box);
 }
 
-/* The doubt as doubt_by_squares has it, of two boxes side by side. */
-HOT int doubt_of_boxes(difference *d, real cc, duos half, duo sums)
-{
-    const duo set = duos_dot(half, half);
-    real map[2];
-    squares_of_maps(d, sums, map);
-    const real square = map[0] * of_a(set) + map[1] * of_b(set) + cc;
-    d->doubt = GLANCE_DOUBT * root(square);
-    return are_squares_plain(map[0], map[1], of_a(set), of_b(set), square);
-}
-
 /* Whether the first corner shows it, or else the axes, of two boxes, of which nothing more is known. */
 static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
@@ -507,7 +496,7 @@ static inline enum glanced glance_at_boxes(search *q, int max_steps, const shape
     const duos half = duos_at(((const box *)d->a.data)->half, ((const box *)d->b.data)->half);
     const real cc = dot(v, v);
     start_glance(q, v);
-    if (!are_plain(cc, a, b) || !doubt_of_boxes(d, cc, half, duos_sum(uu))) return UNCLEAR;
+    if (!are_plain(cc, a, b) || !doubt_by_squares(d, cc, duos_sum(uu), duos_dot(half, half))) return UNCLEAR;
     const duo rest = duos_dot_size(half, way);
     const real first = cc - (of_a(rest) + of_b(rest));
     if (!(first > 0)) {

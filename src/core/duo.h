@@ -13,6 +13,7 @@ typedef struct duo {
 
 HOT duo duo_of(real a, real b) { return (duo){_mm_setr_pd(a, b)}; }
 HOT duo duo_at(const real *a, const real *b) { return (duo){_mm_loadh_pd(_mm_load_sd(a), b)}; }
+HOT duo duo_beside(const real *x) { return (duo){_mm_loadu_pd(x)}; }
 HOT real of_a(duo x) { return _mm_cvtsd_f64(x.c); }
 HOT real of_b(duo x) { return _mm_cvtsd_f64(_mm_unpackhi_pd(x.c, x.c)); }
 HOT duo duo_add(duo x, duo y) { return (duo){_mm_add_pd(x.c, y.c)}; }
@@ -44,6 +45,7 @@ typedef struct duo {
 
 HOT duo duo_of(real a, real b) { return (duo){_mm_setr_ps(a, b, 0, 0)}; }
 HOT duo duo_at(const real *a, const real *b) { return (duo){_mm_unpacklo_ps(_mm_load_ss(a), _mm_load_ss(b))}; }
+HOT duo duo_beside(const real *x) { return (duo){_mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)(const void *)x)}; }
 HOT real of_a(duo x) { return _mm_cvtss_f32(x.c); }
 HOT real of_b(duo x) { return _mm_cvtss_f32(_mm_shuffle_ps(x.c, x.c, 0x55)); }
 HOT duo duo_add(duo x, duo y) { return (duo){_mm_add_ps(x.c, y.c)}; }
@@ -72,6 +74,7 @@ typedef struct duo {
 
 HOT duo duo_of(real a, real b) { return (duo){{a, b}}; }
 HOT duo duo_at(const real *a, const real *b) { return duo_of(*a, *b); }
+HOT duo duo_beside(const real *x) { return duo_of(x[0], x[1]); }
 HOT real of_a(duo x) { return x.c[0]; }
 HOT real of_b(duo x) { return x.c[1]; }
 HOT duo duo_add(duo x, duo y) { return duo_of(x.c[0] + y.c[0], x.c[1] + y.c[1]); }

@@ -26,6 +26,27 @@ HOT evidence corner_shown(const difference *d, vec v, const vertex *p)
     return e;
 }
 
+/* The way to the corner least along it, as the bodies see it. */
+typedef struct sought {
+    vec of_a, of_b;
+} sought;
+
+HOT sought seek_both(const difference *d, vec way)
+{
+    const duos dirs = duos_pulled(&d->maps, duos_of(mul(way, -1), way));
+    return (sought){seen_or_first(vec_of_a(dirs)), seen_or_first(vec_of_b(dirs))};
+}
+
+/* What the corner of these two points shows along the way. */
+HOT void see_corner(const difference *d, vec way, duos x, evidence *e)
+{
+    const duos at = duos_mapped(&d->maps, x);
+    e->a = vec_of_a(at);
+    e->b = vec_of_b(at);
+    e->w = corner_at_spots(d, at);
+    e->height = dot(way, e->w);
+}
+
 HOT vec squared_columns(const real *m, real level)
 {
     vec uu;
@@ -141,22 +162,23 @@ HOT void stay_outside(difference *d, const shape *a, const shape *b)
     d->wild = 0;
 }
 
-/* The squares of w and of its height are up to three times the whole. */
-HOT int are_squares_plain(real map_a, real map_b, real set_a, real set_b, real square)
+/* The doubt of bodies so far apart, by the squares of that, of their maps and of their sets' reaches. 0: squares
+ * underflow, or overflow, as those of w and of its height do, which are up to three times the whole. */
+HOT int doubt_by_squares(difference *d, real cc, duo sums, duo sets)
 {
-    return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN && square < REAL_MAX / 4;
+    real map[2];
+    squares_of_maps(d, sums, map);
+    const duo maps = duo_of(map[0], map[1]), wholes = duo_mul(maps, sets);
+    const real square = of_a(wholes) + of_b(wholes) + cc;
+    d->doubt = GLANCE_DOUBT * root(square);
+    return are_larger(duo_smaller(maps, sets), duo_both(1 / PLAIN)) && square < REAL_MAX / 4;
 }
 
-/* The doubt of bodies c apart, by its square, and the squares of their axes. 0: squares underflow, or overflow. */
-HOT int doubt_by_squares(difference *d, real cc, vec uu[2])
+/* The same of bodies whose maps lie side by side. */
+HOT int doubt_of_listed(difference *d, real cc)
 {
-    uu[0] = squared_axes(&d->a, 1);
-    uu[1] = squared_axes(&d->b, 1);
-    const real map_a = square_of_map(&d->a, uu[0]), map_b = square_of_map(&d->b, uu[1]);
-    const real set_a = square_of_reach(&d->a, 1, 1), set_b = square_of_reach(&d->b, 1, 1);
-    const real square = map_a * set_a + map_b * set_b + cc;
-    d->doubt = GLANCE_DOUBT * root(square);
-    return are_squares_plain(map_a, map_b, set_a, set_b, square);
+    const duo sets = duo_of(square_of_reach(&d->a, 1, 1), square_of_reach(&d->b, 1, 1));
+    return doubt_by_squares(d, cc, square_of_duo_map(&d->maps), sets);
 }
 
 /* The square of the way between the bodies does not underflow, and their radii are plain. */
@@ -180,21 +202,22 @@ HOT void start_glance(search *q, vec v)
 static inline enum glanced glance(search *q, const shape *a, const shape *b, result *r)
 {
     difference *d = &q->d;
+    vertex *p = &q->s.slot[0];
+    evidence e;
     stay_outside(d, a, b);
     const vec v = mul(d->c, -1);
     const real cc = dot(v, v);
-    vec uu[2];
-    vertex *p = &q->s.slot[0];
     if (!are_plain(cc, a, b)) return UNCLEAR;
     know_reach_listed(&d->a);
     know_reach_listed(&d->b);
-    if (!farthest_plain(&d->a, d->c, FIRST_SIGHT, &p->x) || !farthest_plain(&d->b, v, FIRST_SIGHT, &p->y))
+    lay_maps(d);
+    const sought s = seek_both(d, v);
+    if (!farthest_seen(&d->a, s.of_a, FIRST_SIGHT, &p->x) || !farthest_seen(&d->b, s.of_b, FIRST_SIGHT, &p->y))
         return UNCLEAR;
-    evidence e = corner_shown(d, v, p);
+    see_corner(d, v, duos_of(p->x, p->y), &e);
     p->w = e.w;
     start_glance(q, v);
-    if (!(e.height > 0)) return IN_VAIN;
-    if (!doubt_by_squares(d, cc, uu)) return UNCLEAR;
+    if (!doubt_of_listed(d, cc)) return UNCLEAR;
     return tell_evidence(q, &e, v, a, b, r) ? TELLING : IN_VAIN;
 }
 

@@ -32,37 +32,27 @@ HOT int take_hull(body *k, const shape *s)
     return 1;
 }
 
-HOT real square_of_hull(const body *k) { return k->posed ? sum_of_all(squared_columns(k->m, 1)) : 1; }
-
 /* The first corner lies deep: few corners of long lists will do. */
 static APART enum glanced dig_at_door(search *q, real height, vec first_at, const shape *a, const shape *b, result *r)
 {
     portion k = first_portion(&q->d);
-    lay_maps(&q->d); /* no frame is settled */
     if (k.n > 1) look_at_portion(&q->d, &k, k.n);
     const enum glanced seen = dig_from(q, 1, k.n == 1, height, first_at, a, b, r);
     if (k.n > 1) look_at_portion(&q->d, &k, 1);
     return seen;
 }
 
-/* Their corners along v, and what these show, to that doubt; c leads from a's position to b's, cc is its square. 0:
- * they can't be asked for, or the sizes are none that a glance knows. */
-HOT int see_hulls(search *q, vec c, real cc, vec v, evidence *e, real *doubt)
+/* Their corners along v, and what these show. 0: they can't be asked for. */
+HOT int see_hulls(search *q, vec v, evidence *e)
 {
     difference *d = &q->d;
     vertex *p = &q->s.slot[0];
-    if (!(dot(v, v) > 1 / PLAIN) || !point_of_hull(&d->a, plain_direction(&d->a, mul(v, -1)), FIRST_SIGHT, &p->x) ||
-        !point_of_hull(&d->b, plain_direction(&d->b, v), FIRST_SIGHT, &p->y))
+    if (!(dot(v, v) > 1 / PLAIN)) return 0;
+    const sought s = seek_both(d, v);
+    if (!point_of_hull(&d->a, s.of_a, FIRST_SIGHT, &p->x) || !point_of_hull(&d->b, s.of_b, FIRST_SIGHT, &p->y))
         return 0;
-    e->a = mapped(&d->a, p->x);
-    e->b = mapped(&d->b, p->y);
-    e->w = sub(e->a, add(e->b, c));
-    e->height = dot(v, e->w);
-    const real map_a = square_of_hull(&d->a), map_b = square_of_hull(&d->b);
-    const real set_a = square_of_list(&d->a.list, 1, 1), set_b = square_of_list(&d->b.list, 1, 1);
-    const real square = map_a * set_a + map_b * set_b + cc;
-    *doubt = GLANCE_DOUBT * root(square);
-    return are_squares_plain(map_a, map_b, set_a, set_b, square);
+    see_corner(d, v, duos_of(p->x, p->y), e);
+    return 1;
 }
 
 /* UNTRIED: they are no such hulls, or of sizes that a glance does not know; or the way that a cache has kept has told
@@ -71,15 +61,17 @@ static APART enum glanced glance_at_hulls(search *q, const cache *own, const sha
 {
     difference *d = &q->d;
     evidence e;
-    real doubt;
     if (!take_hull(&d->a, a) || !take_hull(&d->b, b)) return UNTRIED;
-    const vec c = offset(a->pose, b->pose);
-    vec v = mul(c, -1);
+    stay_outside(d, a, b);
+    lay_maps(d);
+    vec v = mul(d->c, -1);
     const real cc = dot(v, v);
     const int lent = own && lends(own, a, b);
-    if ((lent && !recall_way(d, own, &v)) || !see_hulls(q, c, cc, v, &e, &doubt)) return UNTRIED;
+    if ((lent && !recall_way(d, own, &v)) || !see_hulls(q, v, &e)) return UNTRIED;
+    const duo sets = duo_of(square_of_list(&d->a.list, 1, 1), square_of_list(&d->b.list, 1, 1));
+    if (!doubt_by_squares(d, cc, square_of_duo_map(&d->maps), sets)) return UNTRIED;
     if (e.height > 0) {
-        weigh_evidence(&e, v, doubt);
+        weigh_evidence(&e, v, d->doubt);
         if (e.lower > 0) {
             q->steps = 0;
             d->calls = 2;
@@ -91,8 +83,6 @@ static APART enum glanced glance_at_hulls(search *q, const cache *own, const sha
         q->lent = IN_VAIN;
         return UNTRIED;
     }
-    stay_outside(d, a, b);
-    d->doubt = doubt;
     start_glance(q, v);
     q->s.slot[0].w = e.w;
     q->listed = 1;

@@ -81,7 +81,6 @@ static enum glanced recall(search *q, cache *k, const shape *a, const shape *b, 
 {
     vec at[DIM + 1];
     evidence e;
-    lay_maps(&q->d); /* no frame is settled, or another one */
     q->lower = -4;
     q->normal = axis(0, 1);
     q->pending = q->repeated = 0;
@@ -113,11 +112,11 @@ static enum glanced recall(search *q, cache *k, const shape *a, const shape *b, 
 /* In the caller's lengths. UNCLEAR: the sizes are none for that. */
 static APART enum glanced recall_outside(search *q, cache *k, const shape *a, const shape *b, result *r)
 {
-    vec uu[2];
     stay_outside(&q->d, a, b);
+    lay_maps(&q->d);
     know_reach_listed(&q->d.a);
     know_reach_listed(&q->d.b);
-    if (!doubt_by_squares(&q->d, dot(q->d.c, q->d.c), uu)) return UNCLEAR;
+    if (!doubt_of_listed(&q->d, dot(q->d.c, q->d.c))) return UNCLEAR;
     bring_to_size(&q->d);
     return recall(q, k, a, b, r);
 }
@@ -128,6 +127,7 @@ static APART int recall_in_frame(search *q, cache *k, const shape *a, const shap
     const difference before = q->d;
     q->d.doubt = doubt_in_frame(&q->d);
     bring_frame_to_size(&q->d);
+    lay_maps(&q->d);
     if (recall(q, k, a, b, r) == TELLING) return 1;
     const int calls = q->d.calls, steps = q->steps;
     q->d = before;

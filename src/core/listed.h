@@ -158,12 +158,6 @@ HOT int farthest_seen(const body *k, vec dir, enum care care, vec *x)
     return fits(k, *x);
 }
 
-/* The same along the frame's direction. */
-HOT int farthest_plain(const body *k, vec dir, enum care care, vec *x)
-{
-    return farthest_seen(k, plain_direction(k, dir), care, x);
-}
-
 /* The corner least along v. */
 HOT int ask_plainly(difference *d, vec v, enum care care, vertex *p)
 {

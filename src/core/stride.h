@@ -85,27 +85,6 @@ HOT int point_of_hull(const body *k, vec dir, enum care care, vec *x)
     return fits(k, *x);
 }
 
-/* The way to the corner least along it, as the bodies see it. */
-typedef struct sought {
-    vec of_a, of_b;
-} sought;
-
-HOT sought seek_both(const difference *d, vec way)
-{
-    const duos dirs = duos_pulled(&d->maps, duos_of(mul(way, -1), way));
-    return (sought){seen_or_first(vec_of_a(dirs)), seen_or_first(vec_of_b(dirs))};
-}
-
-/* What the corner of these two points shows along the way. */
-HOT void see_corner(const difference *d, vec way, duos x, evidence *e)
-{
-    const duos at = duos_mapped(&d->maps, x);
-    e->a = vec_of_a(at);
-    e->b = vec_of_b(at);
-    e->w = corner_at_spots(d, at);
-    e->height = dot(way, e->w);
-}
-
 /* The corner least along the way, in haste, and what it shows; hulls: both are, at the door. 0: it is none. */
 HOT int find_corner(difference *d, int hulls, vec way, vertex *p, evidence *e)
 {
@@ -155,12 +134,11 @@ static inline void keep_evidence(search *q, const evidence *e)
     EACH(q->normal.c[i] = 0 - q->way.c[i] / l);
 }
 
-/* A tetrahedron of points of A - B, and its faces, each across from one of them. */
+/* A tetrahedron of points of A - B. */
 typedef struct tetra {
     vec w[DIM + 1];
-    vec face[DIM + 1]; /* times turn: toward that one */
-    real turn;
-    real weight[DIM + 1]; /* with which it holds the origin; below 0: the origin lies beyond that face */
+    real turn;            /* its handedness */
+    real weight[DIM + 1]; /* with which it holds the origin, which lies beyond the face across where one is below 0 */
 } tetra;
 
 /* How much room the origin has in it, as rough_room has it: of the heights' squares, and of corners no farther out than
@@ -174,10 +152,6 @@ HOT real room_of(tetra *t, real far)
     const real w0 = -dot(p, bc) * turn, w1 = -dot(p, ca) * turn, w2 = -dot(p, ab) * turn;
     const real w3 = dot(t->w[0], cross(t->w[1], t->w[2])) * turn;
     t->turn = turn;
-    t->face[0] = bc;
-    t->face[1] = ca;
-    t->face[2] = ab;
-    t->face[3] = mul(last, -1);
     t->weight[0] = w0;
     t->weight[1] = w1;
     t->weight[2] = w2;
@@ -189,6 +163,14 @@ HOT real room_of(tetra *t, real far)
     least = smaller(u2 * u2 / dot(ab, ab), least);
     least = smaller(u3 * u3 / dot(last, last), least);
     return root(least) * (1 - 8 * UNIT);
+}
+
+/* Square to the face across from one of the points, toward that. */
+static vec square_to_face(const tetra *t, int across)
+{
+    const vec p = t->w[3], e[DIM] = {sub(t->w[0], p), sub(t->w[1], p), sub(t->w[2], p)};
+    if (across < DIM) return mul(cross(e[(across + 1) % DIM], e[(across + 2) % DIM]), t->turn);
+    return mul(add(add(cross(e[1], e[2]), cross(e[2], e[0])), cross(e[0], e[1])), -t->turn);
 }
 
 /* How far out corners are, or a little less. */
@@ -266,17 +248,31 @@ static inline int tell_closed(search *q, const evidence *e, int of_all, const ve
 #define DIGS 3
 #define DEEPEST (FAN + DIGS - 1)
 
+/* A corner's first two coordinates, side by side, and the third; or the sum of two corners. */
+typedef struct threefold {
+    duo xy;
+    real z;
+} threefold;
+
+HOT threefold threefold_of(const real *v, real by)
+{
+    return (threefold){duo_mul(duo_beside(v), duo_both(by)), v[2] * by};
+}
+
+HOT threefold summed(threefold p, threefold q) { return (threefold){duo_add(p.xy, q.xy), p.z + q.z}; }
+
 /* The middle of some corners, each times that: a point within. */
 HOT vec middle_of(const list *l, real by)
 {
     const size_t n = l->count, far = n / EIGHT * l->step;
-    const real *v = l->v;
-    if (n < EIGHT) return mul(add(mul(load(v), by), mul(nth_of(l, n - 1), by)), (real)0.5);
-    vec x = add(mul(load(v), by), mul(load(v + 2 * far), by));
-    vec y = add(mul(load(v + far), by), mul(load(v + 3 * far), by));
-    x = add(add(x, mul(load(v + 4 * far), by)), mul(load(v + 6 * far), by));
-    y = add(add(y, mul(load(v + 5 * far), by)), mul(load(v + 7 * far), by));
-    return mul(add(x, y), (real)1 / EIGHT);
+    if (n < EIGHT) return mul(add(mul(load(l->v), by), mul(nth_of(l, n - 1), by)), (real)0.5);
+    threefold even = threefold_of(l->v, by), odd = threefold_of(l->v + far, by);
+    for (size_t i = 2; i < EIGHT; i += 2) {
+        even = summed(even, threefold_of(l->v + i * far, by));
+        odd = summed(odd, threefold_of(l->v + (i + 1) * far, by));
+    }
+    const threefold all = summed(even, odd);
+    return mul((vec){{of_a(all.xy), of_b(all.xy), all.z}}, (real)1 / EIGHT);
 }
 
 HOT vec inner_point(const body *k, int hull)
@@ -339,53 +335,94 @@ HOT int lies_deep(const difference *d, real height)
     return l > UNIT * far && -height > l * far / 8;
 }
 
+/* What is dug: a tetrahedron of the first corner, of those that were sought since, and of a point within; all times a
+ * power of two. */
+typedef struct pit {
+    tetra t;
+    vec at[DIM + 1]; /* where A's points of it are placed */
+    real by;         /* that power */
+    real height;     /* of the first corner, along the line of centres */
+    int corners;     /* so many of its points, from the first on */
+} pit;
+
+/* The first corner and the point within, in between neither. 0: that gives no direction. */
+HOT int open_pit(const search *q, int hulls, real height, vec first_at, pit *k)
+{
+    const difference *d = &q->d;
+    const duos within = duos_mapped(&d->maps, duos_of(inner_point(&d->a, hulls), inner_point(&d->b, hulls)));
+    k->by = hulls ? leveler(whole_of(d)) : 1;
+    k->height = height;
+    k->corners = DIM;
+    k->t.w[0] = mul(q->s.slot[0].w, k->by);
+    k->t.w[DIM] = mul(corner_at_spots(d, within), k->by);
+    k->at[0] = first_at;
+    k->at[DIM] = vec_of_a(within);
+    return dot(k->t.w[DIM], k->t.w[DIM]) > UNIT * UNIT;
+}
+
+/* Takes the corner that was sought along the way for one of its points. 1: the bodies are apart, and that is told. */
+HOT int take_dug(search *q, pit *k, int place, evidence *e, vec way, int of_all, const shape *a, const shape *b,
+                 result *r)
+{
+    q->steps = 1 + q->dug++;
+    if (of_all && tell_corner(q, e, way, a, b, r)) return 1;
+    k->t.w[place] = mul(e->w, k->by);
+    k->at[place] = e->a;
+    return 0;
+}
+
+/* It holds the origin, and that is told. */
+HOT int tell_pit(search *q, pit *k, const shape *a, const shape *b, result *r)
+{
+    const difference *d = &q->d;
+    q->inside = room_of(&k->t, whole_of(d) * k->by) / k->by;
+    if (!(q->inside > d->doubt)) return 0;
+    const real l = root(dot(d->c, d->c));
+    q->lower = k->height / l - d->doubt;
+    EACH(q->normal.c[i] = 0 + d->c.c[i] / l); /* where that is 0 it has no sign */
+    q->steps++;
+    q->s.n = k->corners;
+    return tell_met(q, &k->t, k->by, k->at, a, b, r);
+}
+
+/* Where the fan has told nothing: corner after corner, beyond the face that the origin is beyond. */
+static APART enum glanced dig_on(search *q, pit own, int hulls, int of_all, const shape *a, const shape *b, result *r)
+{
+    pit *k = &own;
+    vertex none;
+    evidence e;
+    while (q->dug < DEEPEST) {
+        const int place = across_from(k->t.weight);
+        const vec way = square_to_face(&k->t, place);
+        if (place == DIM) k->corners = DIM + 1; /* a corner instead of the point within */
+        if (!find_corner(&q->d, hulls, way, hulls ? &none : &q->s.slot[place], &e)) return UNCLEAR;
+        if (take_dug(q, k, place, &e, way, of_all, a, b, r) || tell_pit(q, k, a, b, r)) return TELLING;
+    }
+    return IN_VAIN;
+}
+
 /* It does; so high, and that is where A's point of it is placed. IN_VAIN: this tells nothing, q->dug corners have been
  * looked at, and the first is in its slot as before. */
 HOT enum glanced dig_from(search *q, int hulls, int of_all, real height, vec first_at, const shape *a, const shape *b,
                           result *r)
 {
     difference *d = &q->d;
-    const vertex first = q->s.slot[0];
-    const duos within = duos_mapped(&d->maps, duos_of(inner_point(&d->a, hulls), inner_point(&d->b, hulls)));
-    const vec in_a = vec_of_a(within), o = corner_at_spots(d, within);
-    const real far = whole_of(d), by = hulls ? leveler(far) : 1, l = root(dot(d->c, d->c));
-    vec way[FAN + 1], at[DIM + 1] = {first_at, first_at, first_at, in_a};
-    tetra t = {.w = {mul(first.w, by), o, o, mul(o, by)}};
-    int across = 1, all = DIM;
-    evidence shown[FAN + 1];
+    vec way[FAN];
+    evidence e[FAN];
+    pit k;
     q->dug = 0;
-    if (!(dot(t.w[DIM], t.w[DIM]) > UNIT * UNIT)) return IN_VAIN; /* it gives no direction */
-    if (!spread_fan(t.w[DIM], t.w[0], way)) return IN_VAIN;
-    if (hulls && !find_fan(d, way, shown)) return UNCLEAR;
-    for (;;) {
-        const int now = q->dug < FAN ? q->dug : FAN;
-        evidence *e = &shown[now];
-        vertex own, *p = hulls ? &own : &q->s.slot[across];
-        if (hulls && now < FAN) d->calls += 2;
-        else if (!find_corner(d, hulls, way[now], p, e)) return UNCLEAR;
-        q->steps = 1 + q->dug++;
-        if (of_all && tell_corner(q, e, way[now], a, b, r)) return TELLING;
-        t.w[across] = mul(e->w, by);
-        at[across] = e->a;
-        if (q->dug < FAN) {
-            across++;
-            continue;
-        }
-        q->inside = room_of(&t, far * by) / by;
-        if (q->inside > d->doubt) {
-            q->lower = height / l - d->doubt;
-            EACH(q->normal.c[i] = 0 + d->c.c[i] / l); /* where that is 0 it has no sign */
-            q->steps++;
-            q->s.n = all;
-            if (tell_met(q, &t, by, at, a, b, r)) return TELLING;
-        }
-        if (q->dug == DEEPEST) break;
-        across = across_from(t.weight);
-        if (across == DIM) all = DIM + 1; /* a corner instead of the point within */
-        way[FAN] = mul(t.face[across], t.turn);
+    if (!open_pit(q, hulls, height, first_at, &k) || !spread_fan(k.t.w[DIM], k.t.w[0], way)) return IN_VAIN;
+    if (hulls && !find_fan(d, way, e)) return UNCLEAR;
+    for (int i = 0; i < FAN; i++) {
+        if (hulls) d->calls += 2;
+        else if (!find_corner(d, 0, way[i], &q->s.slot[1 + i], &e[i])) return UNCLEAR;
+        if (take_dug(q, &k, 1 + i, &e[i], way[i], of_all, a, b, r)) return TELLING;
     }
-    q->s.slot[0] = first;
-    return IN_VAIN;
+    if (tell_pit(q, &k, a, b, r)) return TELLING;
+    const vertex first = q->s.slot[0];
+    const enum glanced seen = dig_on(q, k, hulls, of_all, a, b, r);
+    if (seen == IN_VAIN) q->s.slot[0] = first;
+    return seen;
 }
 
 /* ---- striding ---- */
@@ -444,7 +481,6 @@ static enum glanced stride(search *q, int max_steps, const shape *a, const shape
 {
     portion k = first_portion(&q->d);
     const int take_all = !is_long_way(&q->d);
-    lay_maps(&q->d); /* no frame is settled, or another one */
     stand_on_first(q);
     if (k.n > 1) {
         const evidence first = {.height = dot(q->way, q->v)};
@@ -474,12 +510,10 @@ static void leave_trail(search *q)
     t->near = is_near(q);
 }
 
-/* Of bodies at which a glance was cast in vain, in the caller's lengths. */
+/* Of bodies at which a glance was cast in vain, in the caller's lengths, with its doubt. */
 static APART enum glanced stride_outside(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
-    vec uu[2];
     if (!are_for_strides(&q->d, a, b)) return IN_VAIN;
-    if (!doubt_by_squares(&q->d, dot(q->d.c, q->d.c), uu)) return UNCLEAR;
     bring_to_size(&q->d);
     q->s.slot[0].w = mul(q->s.slot[0].w, q->d.scale);
     const enum glanced seen = stands_clear(&q->s.slot[0]) ? stride(q, max_steps, a, b, r) : UNCLEAR;
@@ -512,6 +546,7 @@ static APART enum glanced stride_in_frame(search *q, int max_steps, const shape 
     q->d.doubt = doubt_in_frame(&q->d);
     q->dug = -1; /* whatever was tried outside is not counted here */
     bring_frame_to_size(&q->d);
+    lay_maps(&q->d);
     first->w = mul(first->w, q->d.scale * before.unscale);
     enum glanced seen = IN_VAIN;
     if (stands_clear(first)) seen = stride(q, max_steps, a, b, r);
