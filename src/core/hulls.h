@@ -35,10 +35,10 @@ HOT int take_hull(body *k, const shape *s)
 /* The first corner lies deep: few corners of long lists will do. */
 static APART enum glanced dig_at_door(search *q, real height, vec first_at, const shape *a, const shape *b, result *r)
 {
-    portion k = first_portion(&q->d);
-    if (k.n > 1) look_at_portion(&q->d, &k, k.n);
+    portion k;
+    look_at_some(&q->d, &k);
     const enum glanced seen = dig_from(q, 1, k.n == 1, height, first_at, a, b, r);
-    if (k.n > 1) look_at_portion(&q->d, &k, 1);
+    look_at_all(&q->d, &k);
     return seen;
 }
 

@@ -52,11 +52,11 @@ static inline void bring_to_size(difference *d)
 /* One in so many of the lists' corners is looked at, SOME at least; of all bounds can be told. */
 #define SOME 16
 typedef struct portion {
-    list a, b; /* all of them */
     size_t n;
+    list a, b; /* all of them, if that was ever more than 1 */
 } portion;
 
-static inline void look_at_portion(difference *d, portion *k, size_t n)
+static void look_at_portion(difference *d, portion *k, size_t n)
 {
     k->n = n;
     d->a.list = k->a;
@@ -66,10 +66,19 @@ static inline void look_at_portion(difference *d, portion *k, size_t n)
     thin_out(&d->b, n, SOME);
 }
 
-static inline portion first_portion(const difference *d)
+HOT void look_at_some(difference *d, portion *k)
 {
     const size_t of_a = share_of(&d->a, SOME), of_b = share_of(&d->b, SOME);
-    return (portion){d->a.list, d->b.list, of_a > of_b ? of_a : of_b};
+    k->n = of_a > of_b ? of_a : of_b;
+    if (k->n == 1) return;
+    k->a = d->a.list;
+    k->b = d->b.list;
+    look_at_portion(d, k, k->n);
+}
+
+HOT void look_at_all(difference *d, portion *k)
+{
+    if (k->n > 1) look_at_portion(d, k, 1);
 }
 
 /* The body's point farthest along a direction as it sees it, in haste. 0: it is none. */
@@ -479,18 +488,18 @@ static enum glanced dig_anywhere(search *q, int of_all, int max_steps, const sha
 
 static enum glanced stride(search *q, int max_steps, const shape *a, const shape *b, result *r)
 {
-    portion k = first_portion(&q->d);
+    portion k;
     const int take_all = !is_long_way(&q->d);
+    look_at_some(&q->d, &k);
     stand_on_first(q);
     if (k.n > 1) {
         const evidence first = {.height = dot(q->way, q->v)};
         keep_evidence(q, &first);
-        look_at_portion(&q->d, &k, k.n);
     }
     enum glanced seen = dig_anywhere(q, k.n == 1, max_steps, a, b, r);
-    if (take_all) look_at_portion(&q->d, &k, 1);
+    if (take_all) look_at_all(&q->d, &k);
     if (seen == IN_VAIN) seen = stride_among(q, &k, max_steps, a, b, r);
-    look_at_portion(&q->d, &k, 1);
+    look_at_all(&q->d, &k);
     return seen;
 }
 
