@@ -508,6 +508,63 @@ static void another_unit_of_flat_boxes(void **state)
     assert_true(apart > 2000);
 }
 
+#define CLOUD_MOST 12
+
+/* The same of clouds whose points lie in planes of the axes, on either side of 0: whether they meet. */
+static void another_unit_of_flat_clouds(void **state)
+{
+    const int least = LEAST_EXPONENT + 16;
+    long apart = 0;
+    (void)state;
+    for (uint64_t n = 0; n < 2000; n++) {
+        draws d = draws_from(17, 0, n);
+        const int by[2] = {0, least + below(&d, 1 - least)}, bare = below(&d, 2), flat = below(&d, DIM);
+        const int count = 9 + below(&d, CLOUD_MOST - 8);
+        real x[2][2][CLOUD_MOST * DIM];
+        V(points) set[2][2];
+        V(pose) at[2];
+        V(result) r[2];
+        memset(at, 0, sizeof at);
+        for (int k = 0; k < 2; k++) {
+            for (int i = 0; i < count * DIM; i++) {
+                x[0][k][i] = (real)(i % DIM == flat ? (below(&d, 2) ? 0.0 : -0.0) : (double)(below(&d, 17) - 8) / 8);
+            }
+        }
+        for (int i = 0; i < DIM; i++) {
+            at[0].m[(DIM + 1) * i] = 1;
+            at[0].p[i] = (real)(below(&d, 7) - 3);
+        }
+        at[1] = at[0];
+        resize_all(at[1].p, at[0].p, DIM, by[1]);
+        for (int unit = 0; unit < 2; unit++) {
+            V(shape) s[2];
+            for (int k = 0; k < 2; k++) {
+                for (int i = 0; unit && i < count; i++) {
+                    resize_all(x[1][k] + DIM * i, x[0][k] + DIM * i, DIM, by[1]);
+                }
+                memset(&set[unit][k], 0, sizeof set[unit][k]);
+                set[unit][k].v = x[unit][k];
+                set[unit][k].count = (size_t)count;
+                set[unit][k].reach = (real)ldexp(2, by[unit]);
+                memset(&s[k], 0, sizeof s[k]);
+                s[k].support = V(support_points);
+                s[k].data = &set[unit][k];
+                s[k].pose = k == bare ? NULL : &at[unit];
+            }
+            memset(&r[unit], 0, sizeof r[unit]);
+            V(intersect)(&s[0], &s[1], NULL, &r[unit]);
+        }
+        assert_int_equal(r[0].status, r[1].status);
+        if (r[0].lower > 0) {
+            assert_int_equal(first_difference(&r[0], &r[1], by[1], 0), -1);
+            assert_true(is_same_point(r[0].point_a, r[1].point_a, by[1]));
+            assert_true(is_same_point(r[0].point_b, r[1].point_b, by[1]));
+            apart++;
+        }
+    }
+    assert_true(apart > 1000);
+}
+
 /* Two points with radii, on one another or apart along an axis by a number of few digits: to the last bit the sum of a
  * few numbers, which may be a tie between two more. */
 static void another_unit_of_points_with_radii(void **state)
@@ -833,6 +890,7 @@ int main(void)
         cmocka_unit_test(another_unit_along_an_axis),
         cmocka_unit_test(another_unit_of_boxes_in_line),
         cmocka_unit_test(another_unit_of_flat_boxes),
+        cmocka_unit_test(another_unit_of_flat_clouds),
         cmocka_unit_test(another_unit_of_points_with_radii),
 #if DIM == 3
         cmocka_unit_test(another_unit_without_a_fan),

@@ -238,8 +238,11 @@ static real doubt_in_frame(const difference *d)
 /* The same of the corner in the spare slot, in the frame, with that doubt. */
 static int glance_in_frame(search *q, const shape *a, const shape *b, result *r)
 {
+    const difference *d = &q->d;
     const vertex *p = spare(&q->s);
-    evidence e = corner_shown(&q->d, q->v, p);
+    evidence e;
+    if (d->a.asked == AS_BOX && d->b.asked == AS_BOX) e = corner_shown(d, q->v, p); /* as they are told at their door */
+    else see_corner(d, q->v, duos_mul(duos_of(p->x, p->y), d->grains), &e);
     return tell_evidence(q, &e, q->v, a, b, r);
 }
 
