@@ -465,6 +465,34 @@ static void unlike_and_huge(void **state)
     assert_true(r.lower == 0 && r.upper <= 1e200);
 }
 
+/* A box whose map makes it far smaller than its numbers, or far larger, and that touches a face of a box far larger
+ * than it is, which has numbers to be left out: its own are not, though they are next to the largest, or smallest. */
+static void unlike_by_a_map(void **state)
+{
+    static const int half[2] = {1013, -300}, map[2] = {-77, 1000};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        fresh(NULL);
+        a.kind = b.kind = BOX;
+        for (int i = 0; i < 3; i++) {
+            a.half[i] = i ? 0 : ldexp(1, half[k]);
+            a.pose.m[4 * i] = ldexp(1, map[k]);
+            b.half[i] = i ? ldexp(1, 1013) : 0x9p-1074;
+        }
+        a.half[1] = 1;
+        a.pose.p[0] = -ldexp(1, half[k] + map[k]);
+        a.pose.p[1] = -0x1p-77;
+        bind(&a);
+        bind(&b);
+        expect(NULL, -9 * (quad)TINY, 0, NEVER);
+        V(options) o = default_options();
+        V(result) r;
+        o.tight = 1;
+        assert_int_equal(V(distance)(&a.shape, &b.shape, &o, &r), GJK_OK);
+        assert_true(r.lower == 0 && r.upper <= 1e200);
+    }
+}
+
 /* A point beside a triangle, in the plane of it, by less than what is left out of their numbers: no depth of 0 is said
  * to be theirs. */
 static void unlike_and_hardly_beside(void **state)
@@ -1021,6 +1049,7 @@ int main(void)
 #if DIM == 3 && !VARIANT_FLOAT
         cmocka_unit_test_setup(unlike_and_sheared, fresh),
         cmocka_unit_test_setup(unlike_and_huge, fresh),
+        cmocka_unit_test_setup(unlike_by_a_map, fresh),
         cmocka_unit_test_setup(unlike_and_hardly_beside, fresh),
 #endif
         cmocka_unit_test_setup(flattened_box_in_couples, fresh),

@@ -79,14 +79,22 @@ static outline outline_of(const shape *s) { return (outline){s, 0, 0, 0}; }
  * that many places, their products and those of four such sums are never lost. */
 #define FAINT ((real)(REAL_IS_DOUBLE ? 0x1p-400 : 0))
 
+/* Below this a number is faint in a frame of that size where it is multiplied by so much. Overflows only where every
+ * number is; products that underflow are those of frames so small that the quotient does not overflow. */
+static real faint_times(real frame, real by)
+{
+    const real least = FAINT * frame;
+    return least >= REAL_MIN ? least / by : FAINT * (frame / by);
+}
+
 /* Leaves out what is faint in a frame of that size. Returns how far the body is off what it was, at most. */
 static real leave_out_faint(outline *o, real frame)
 {
     real far = TINY, norm = o->s->pose ? TINY : 1;
     for (size_t i = 0; i < count_corners(o->s); i++) far = larger(peak(nth_corner(o->s, i)), far);
     for (int i = 0; i < DIM * DIM && o->s->pose; i++) norm = larger(size(o->s->pose->m[i]), norm);
-    o->point = FAINT * (frame / norm);
-    o->map = FAINT * (frame / far);
+    o->point = faint_times(frame, norm);
+    o->map = faint_times(frame, far);
     o->place = FAINT * frame;
     return FAINT > 0 ? 32 * (o->place + TINY) : 0;
 }
