@@ -921,10 +921,12 @@ static void a_glance_sees_no_overflow(void **state)
         const real half[2] = {any_real(0, (real)0.1), any_real(0, (real)0.1)};
         for (int e = 0; e <= 8; e++) {
             const real unit = (real)(e == 0 ? 1 : ldexp(1, (sizeof(real) == 8 ? 512 : 64) - 6 + e));
-            for (int i = 0; i < 2 * DIM; i++) corners[0][i / DIM][i % DIM] = 0;
-            corners[0][0][0] = corners[0][1][0] = -off * unit;
-            corners[0][1][1] = half[0] * unit;
-            clouds[0] = (points){.v = corners[0][0], .count = 2, .reach = off * unit * (real)1.25};
+            for (int n = 0; n < 9; n++) { /* more than a glance in the plane is not cast at */
+                for (int i = 0; i < DIM; i++) corners[0][n][i] = 0;
+                corners[0][n][0] = -off * unit;
+                corners[0][n][1] = half[0] * unit * (real)n / 8;
+            }
+            clouds[0] = (points){.v = corners[0][0], .count = 9, .reach = off * unit * (real)1.25};
             for (int i = 0; i < DIM; i++) {
                 boxes[1].half[i] = half[1] * unit;
                 poses[0].p[i] = poses[1].p[i] = 0;
