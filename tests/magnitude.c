@@ -510,7 +510,8 @@ static void another_unit_of_flat_boxes(void **state)
 
 #define CLOUD_MOST 12
 
-/* The same of clouds whose points lie in planes of the axes, on either side of 0: whether they meet. */
+/* The same of clouds whose points lie in planes of the axes, on either side of 0, one of them thin or none: whether
+ * they meet. */
 static void another_unit_of_flat_clouds(void **state)
 {
     const int least = LEAST_EXPONENT + 16;
@@ -519,14 +520,14 @@ static void another_unit_of_flat_clouds(void **state)
     for (uint64_t n = 0; n < 2000; n++) {
         draws d = draws_from(17, 0, n);
         const int by[2] = {0, least + below(&d, 1 - least)}, bare = below(&d, 2), flat = below(&d, DIM);
-        const int count = 9 + below(&d, CLOUD_MOST - 8);
+        const int many = 9 + below(&d, CLOUD_MOST - 8), few = 1 + below(&d, 2), pairing = below(&d, 3);
         real x[2][2][CLOUD_MOST * DIM];
         V(points) set[2][2];
         V(pose) at[2];
         V(result) r[2];
         memset(at, 0, sizeof at);
         for (int k = 0; k < 2; k++) {
-            for (int i = 0; i < count * DIM; i++) {
+            for (int i = 0; i < CLOUD_MOST * DIM; i++) {
                 x[0][k][i] = (real)(i % DIM == flat ? (below(&d, 2) ? 0.0 : -0.0) : (double)(below(&d, 17) - 8) / 8);
             }
         }
@@ -539,12 +540,12 @@ static void another_unit_of_flat_clouds(void **state)
         for (int unit = 0; unit < 2; unit++) {
             V(shape) s[2];
             for (int k = 0; k < 2; k++) {
-                for (int i = 0; unit && i < count; i++) {
+                for (int i = 0; unit && i < CLOUD_MOST; i++) {
                     resize_all(x[1][k] + DIM * i, x[0][k] + DIM * i, DIM, by[1]);
                 }
                 memset(&set[unit][k], 0, sizeof set[unit][k]);
                 set[unit][k].v = x[unit][k];
-                set[unit][k].count = (size_t)count;
+                set[unit][k].count = (size_t)(pairing == k ? few : many);
                 set[unit][k].reach = (real)ldexp(2, by[unit]);
                 memset(&s[k], 0, sizeof s[k]);
                 s[k].support = V(support_points);

@@ -221,8 +221,8 @@ static int reply_to(search *q, const shape *a, const shape *b, const options *o,
     if (q->told) {
         q->d.scale = leveler(larger(size(r->lower), size(r->upper))); /* what the status is found in */
         q->d.unscale = 1 / q->d.scale;
-        q->d.doubt =
-            2 * UNIT; /* of an answer of the sister's, which may be wide; where hers ends it, float's of a size: */
+        /* of an answer of the sister's, which may be wide; where hers ends it, float's of a size: */
+        q->d.doubt = 2 * UNIT;
         if (*end == BEYOND) q->d.doubt = larger(UNIT * size_of_pair(a, b) * q->d.scale, q->d.doubt);
         q->d.slack = 0;
         return 0;

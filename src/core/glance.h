@@ -241,9 +241,8 @@ static int glance_in_frame(search *q, const shape *a, const shape *b, result *r)
     const difference *d = &q->d;
     const vertex *p = spare(&q->s);
     evidence e;
-    const int boxes = d->a.asked == AS_BOX && d->b.asked == AS_BOX;
-    if (boxes || is_thin(&d->a) || is_thin(&d->b))
-        e = corner_shown(d, q->v, p); /* no glance without a frame is theirs */
+    const int boxes = d->a.asked == AS_BOX && d->b.asked == AS_BOX; /* leave zeros their signs without a frame, too */
+    if (boxes) e = corner_shown(d, q->v, p);
     else see_corner(d, q->v, duos_mul(duos_of(p->x, p->y), d->grains), &e);
     return tell_evidence(q, &e, q->v, a, b, r);
 }
