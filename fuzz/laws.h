@@ -705,13 +705,47 @@ static inline int scales_exactly(const scene *s, int exponent)
     return ok;
 }
 
+/* Whether what is not 0 is so near a size that the squares of both are normal numbers at once. */
+static inline int comes_near(const real *x, int count, int size)
+{
+    for (int i = 0; i < count; i++) {
+        int e = exponent_of((double)x[i]);
+        if (e > NOTHING && e < size - (VARIANT_FLOAT ? 60 : 500)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Whether no length of the body is next to nothing beside the others of its set, or, of where it lies, beside that. */
+static inline int is_of_a_size(const body *b, int whole)
+{
+    const int set = set_exponent(b);
+    return comes_near(b->v[0], MAX_POINTS * DIM, set) && comes_near(b->half, DIM, set) &&
+           comes_near(&b->radius, 1, set) && comes_near(&b->half_length, 1, set) && comes_near(b->pose.p, DIM, whole) &&
+           comes_near(&b->shape.radius, 1, whole);
+}
+
+static inline int is_all_of_a_size(question *q)
+{
+    int ok = 1;
+    for (int k = 0; k < 2; k++) {
+        const body *b = whole_of(&q->s, k);
+        ok &= is_of_a_size(b, q->exponent);
+        for (int i = 0; i < 2 && is_couple(b); i++) {
+            ok &= is_of_a_size(b->part[i], set_exponent(b));
+        }
+    }
+    return ok;
+}
+
 /* The answer r, and the one to the pair in another unit, a power of two apart, have the same bits. */
 static inline void must_scale(question *q, enum query asked, const V(result) * r, int exponent)
 {
     const int plain = VARIANT_FLOAT ? 26 : 290;
     scene s = q->s;
     V(result) big, want = *r;
-    if (!q->tame || abs(q->exponent + exponent) > plain || !scales_exactly(&s, exponent)) {
+    if (!q->tame || abs(q->exponent + exponent) > plain || !scales_exactly(&s, exponent) || !is_all_of_a_size(q)) {
         return;
     }
     scale_scene(&s, exponent);

@@ -268,13 +268,15 @@ static APART void seize_wild(body *k)
 static int is_tame(const body *k) { return !unruly(k->stretch) && (k->size == 0 || !unruly(k->size)); }
 
 /* The body's map and its points' grain, where sizes are wild, now that the scale is known. The map is scaled by its
- * exponent, whose size need not be a number of the format; and what underflows all the same has no weight. */
+ * exponent, whose size need not be a number of the format; and what underflows all the same has no weight. That of a
+ * set of no size keeps its digits, as where sizes are plain. */
 static APART void fit_wild(body *k, real scale)
 {
     real level = leveler(k->reach);
     int e = exponent_of(scale) - exponent_of(k->unit) - exponent_of(level);
+    if (k->size == 0) e = exponent_of(leveler(k->stretch));
     k->grain = k->posed ? level : scale / k->unit;
-    for (int i = 0; i < DIM * DIM && k->posed; i++) k->fitted[i] = k->size == 0 ? 0 : raised(k->m[i], e);
+    for (int i = 0; i < DIM * DIM && k->posed; i++) k->fitted[i] = raised(k->m[i], e);
     k->m = k->fitted;
     k->norm = k->posed ? larger(stretch(k->m), REAL_MIN) : 1;
     k->ease = leveler(k->norm);

@@ -99,7 +99,6 @@ static real leave_out_faint(outline *o, real frame)
     return FAINT > 0 ? 32 * (o->place + TINY) : 0;
 }
 
-static inline real unless_below(real x, real least) { return size(x) < least ? 0 : x; }
 static inline vec point_in(const outline *o, vec x)
 {
     EACH(x.c[i] = unless_below(x.c[i], o->point));

@@ -126,6 +126,8 @@ static inline real signed_as(real x, real y)
     return x;
 }
 
+static inline real unless_below(real x, real least) { return size(x) < least ? 0 : x; }
+
 static inline int bounded(real x) { return size(x) <= REAL_MAX; }
 
 static inline int is_length(real x) { return x >= 0 && x <= REAL_MAX; }

@@ -231,6 +231,17 @@ typedef struct vista {
     int out; /* which it is nearest to leave the box along; -1: it is not in it */
 } vista;
 
+/* In a box's coordinates, of a pair so large, what is below this is of no account: in another unit, or in the frame, it
+ * may have underflown, and nothing may be told by its sign or by its not being 0. */
+static inline real least_of_note(real whole, real level) { return UNIT * UNIT * (whole * level); }
+
+/* What there is of a point's coordinates then. */
+static inline vec noted(vec x, real least)
+{
+    EACH(x.c[i] = unless_below(x.c[i], least));
+    return x;
+}
+
 static inline int way_out(vec x, vec e)
 {
     int out = 0;
@@ -247,8 +258,10 @@ static inline vista look_from_box(const difference *d, real level, vec uu)
     k.half = mul(load(((const box *)k.box->data)->half), k.box->grain);
     k.uu = uu;
     const vec seen = k.box->posed ? pull(k.box->m, mul(k.at, level)) : k.at;
+    const real least = least_of_note(d->doubt / GLANCE_DOUBT, level);
     EACH(k.x.c[i] = seen.c[i] * level / k.uu.c[i]);
-    if (same(clamped(k.x, k.half), k.x) && room_at(k.x, k.half) > 0) k.out = way_out(k.x, k.half);
+    k.x = noted(k.x, least);
+    if (same(clamped(k.x, k.half), k.x) && room_at(k.x, k.half) > least) k.out = way_out(k.x, k.half);
     return k;
 }
 

@@ -43,9 +43,10 @@ static inline vec seen_along(const body *k, vec at, vec uu, real level)
 /* Of a point of the other body, from the position of that. */
 HOT hint hint_of_box(const body *k, int of_a, vec half, vec own, vec c, vec uu, real level, real whole)
 {
-    const vec at = of_a ? add(own, c) : sub(own, c), x = seen_along(k, at, uu, level);
+    const real least = least_of_note(whole, level);
+    const vec at = of_a ? add(own, c) : sub(own, c), x = noted(seen_along(k, at, uu, level), least);
     const vec foot = clamped(x, half), there = mapped(k, foot);
-    const int inside = peak(half) > 0 && same(foot, x), out = inside ? way_out(x, half) : 0;
+    const int inside = peak(half) > least && same(foot, x), out = inside ? way_out(x, noted(half, least)) : 0;
     vec way = sub(at, there);
     hint e = {.a = of_a ? there : own, .b = of_a ? own : there, .least = UNIT * whole};
     e.far = e.l = length(way);
