@@ -335,6 +335,7 @@ static APART int tell_touching(search *q, const scene *k, front own, int framed,
     if (!(q->lower > -REAL_MAX)) return 0;
     t.lower = g->deep ? 0 : q->lower; /* so high all of them lie */
     t.upper = 0;
+    if (g->deep) t.value = gap_of(&q->d, (twin){0, 0}, a, b);
     const real sum = size(weight[0]) + size(weight[1]) + size(weight[2]);
     vec x = axis(0, 0), y = x;
     for (int i = 0; i < 3; i++) {
