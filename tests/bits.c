@@ -14,13 +14,13 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xf173b546da234e16, 0x2e82a211eff3a3d4, 0x79cfee0fc0e07f55};
+static const uint64_t known[3] = {0xaaecfe30a57b3e92, 0x2e82a211eff3a3d4, 0x5b7b79d488858c2d};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x74e089c84f2f2c4f, 0x44d0d62eff8e6fab, 0x2c192381494d4dab};
+static const uint64_t known[3] = {0x71583cfa645042e7, 0x44d0d62eff8e6fab, 0x68c53829d885705b};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0xdbb66ea3ebf51f1f};
+static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0xa6855c340b4a21eb};
 #else
 #define V(name) gjk2f_##name
 static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x1696b69f80cb5f1a, 0x80c255f2ae78ef43};

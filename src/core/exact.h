@@ -38,6 +38,10 @@ static inline real upper_digits(real x, real size)
     return (x + big) - big;
 }
 
+/* Added to a number and taken away again this times a bound of it, so many upper digits are left that a product of two
+ * such, and the sum of DIM of these, is exact. */
+#define DIGITS_OFF ROUNDING_TO(GRID)
+
 /* A power of two above x. */
 static inline real above(real x)
 {

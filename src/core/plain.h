@@ -167,17 +167,17 @@ static int is_passed_over(const search *q, const spots *p, vec low)
     return dot(q->v, way) > forgiven(q->s.n) * noise_along(q->v, way);
 }
 
-/* How long w is, to twice the digits, l being its length, and low what it lost. */
-static inline twin length_to_twice(vec w, real l, vec low)
+/* How long w + low is, l being the length of w, to more digits than one number has: upper digits have exact squares,
+ * and so are their sums. */
+HOT twin length_by_digits(vec w, real l, vec low)
 {
-    const twin back = square_of(l);
-    real rest = 2 * dot(w, low), high = 0;
-    for (int i = 0; i < DIM; i++) {
-        const twin square = square_of(w.c[i]), sum = sum_of(high, square.high);
-        high = sum.high;
-        rest += sum.low + square.low;
-    }
-    return (twin){l, ((high - back.high) + (rest - back.low)) / (2 * l)};
+    const real off = spread(w) * DIGITS_OFF, l_up = (l + off) - off, l_rest = l - l_up;
+    vec up;
+    EACH(up.c[i] = (w.c[i] + off) - off);
+    const vec rest = sub(w, up);
+    const real square = dot(up, up) - l_up * l_up;
+    const real more = 2 * (dot(up, rest) - l_up * l_rest + dot(w, low)) + (dot(rest, rest) - l_rest * l_rest);
+    return (twin){l, (square + more) / (2 * l)};
 }
 
 /* What the bounds and two points, placed from the bodies' positions, tell; upper is of the cores. */
@@ -202,7 +202,7 @@ static inline void spell_spots(const search *q, const shape *a, const shape *b, 
 static inline void spell_distance(const search *q, const shape *a, const shape *b, real far, real upper, const spots *p,
                                   vec low, result *r)
 {
-    r->value = gap_of(&q->d, length_to_twice(p->w, far, low), a, b);
+    r->value = gap_of(&q->d, length_by_digits(p->w, far, low), a, b);
     spell_spots(q, a, b, upper, p, r);
 }
 

@@ -13,10 +13,6 @@
 #define EVIDENT 2
 #define MOST_WIDE 4
 
-/* Added to a number and taken away again this times a bound of it, so many upper digits are left that a product of two
- * such, and the sum of two of these, is exact. */
-#define DIGITS_OFF ROUNDING_TO(GRID)
-
 /* ---- spelling ---- */
 
 /* What is known of the cores: how far apart at least, along v, of length l, and at most, as these points of theirs are,
@@ -151,19 +147,6 @@ HOT void place_verdict(const scene *k, const closest *p, verdict *t)
     t->a = map(k->a.m, p->x);
     t->b = map(k->b.m, p->y);
     t->way = p->w;
-}
-
-/* How long w + low is, to more digits than one number has, as upper digits have exact squares: length_to_twice,
- * cheaper, and not as exact. */
-HOT twin length_by_digits(vec w, vec low)
-{
-    const real off = spread(w) * DIGITS_OFF, l = length(w), l_up = (l + off) - off, l_rest = l - l_up;
-    vec up;
-    EACH(up.c[i] = (w.c[i] + off) - off);
-    const vec rest = sub(w, up);
-    const real square = dot(up, up) - l_up * l_up;
-    const real more = 2 * (dot(up, rest) - l_up * l_rest + dot(w, low)) + (dot(rest, rest) - l_rest * l_rest);
-    return (twin){l, (square + more) / (2 * l)};
 }
 
 /* Bit for bit, which other corners of the body are not lower along v than that one by the margin for certain. */
@@ -367,7 +350,7 @@ HOT int tell_front(search *q, const scene *k, front *f, int framed, const shape 
     if (g->sign_only) {
         t.upper = length(t.way) * (1 + 8 * UNIT) + d->doubt;
     } else {
-        const twin far = length_by_digits(t.way, lost_finely(d, k, &pair, a, b));
+        const twin far = length_by_digits(t.way, length(t.way), lost_finely(d, k, &pair, a, b));
         t.upper = far.high * (1 + 8 * UNIT) + d->doubt;
         t.value = gap_of(d, far, a, b);
         if (!(t.upper - t.lower <= MOST_WIDE * d->doubt) && f->ended) return 0;

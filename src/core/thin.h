@@ -260,8 +260,10 @@ static inline vista look_from_box(const difference *d, real level, vec uu)
     const vec seen = k.box->posed ? pull(k.box->m, mul(k.at, level)) : k.at;
     const real least = least_of_note(d->doubt / GLANCE_DOUBT, level);
     EACH(k.x.c[i] = seen.c[i] * level / k.uu.c[i]);
-    k.x = noted(k.x, least);
-    if (same(clamped(k.x, k.half), k.x) && room_at(k.x, k.half) > least) k.out = way_out(k.x, k.half);
+    if (room_at(k.x, k.half) > least) {
+        k.x = noted(k.x, least);
+        k.out = way_out(k.x, k.half);
+    }
     return k;
 }
 
@@ -385,7 +387,7 @@ HOT int tell_sight(const difference *d, const sight_of_two *e, const shape *a, c
     if (e->inside && !g->deep) {
         if (!bound_inside(d, e, &lower, &upper)) return 0;
     } else {
-        const twin l = e->inside ? e->height : length_to_twice(e->w, length(e->w), e->low);
+        const twin l = e->inside ? e->height : length_by_digits(e->w, length(e->w), e->low);
         if (!bound_finely(d, e, l, g, &lower, &upper)) return 0;
         value = gap_of(d, l, a, b);
     }

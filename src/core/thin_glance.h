@@ -44,14 +44,16 @@ static inline vec seen_along(const body *k, vec at, vec uu, real level)
 HOT hint hint_of_box(const body *k, int of_a, vec half, vec own, vec c, vec uu, real level, real whole)
 {
     const real least = least_of_note(whole, level);
-    const vec at = of_a ? add(own, c) : sub(own, c), x = noted(seen_along(k, at, uu, level), least);
+    const vec at = of_a ? add(own, c) : sub(own, c), x = seen_along(k, at, uu, level);
     const vec foot = clamped(x, half), there = mapped(k, foot);
-    const int inside = peak(half) > least && same(foot, x), out = inside ? way_out(x, noted(half, least)) : 0;
-    vec way = sub(at, there);
+    const int inside = peak(sub(foot, x)) <= least && peak(half) > least;
     hint e = {.a = of_a ? there : own, .b = of_a ? own : there, .least = UNIT * whole};
+    vec way = sub(at, there);
     e.far = e.l = length(way);
     if (inside) {
-        way = mul(mapped(k, axis(out, 1)), signed_as(level, x.c[out]));
+        const vec in = noted(x, least);
+        const int out = way_out(in, noted(half, least));
+        way = mul(mapped(k, axis(out, 1)), signed_as(level, in.c[out]));
         e.l = length(way);
         e.least = UNIT;
     }
