@@ -493,6 +493,37 @@ static void unlike_by_a_map(void **state)
     }
 }
 
+/* A plate with a radius on another, of sides so small that their squares have too many digits beside the radius': the
+ * cores overlap by less than the radius is, or are apart by a little more. */
+static void plates_of_next_to_no_size(void **state)
+{
+    (void)state;
+    for (int k = -1074; k < -20; k += 3) {
+        for (int side = -1; side <= 1; side += 2) {
+            const double gap = side * 49 * (REAL_EPSILON / 2), size = ldexp(k % 2 ? 1 : 3, k);
+            V(options) o = default_options();
+            V(result) r;
+            fresh(NULL);
+            a.kind = b.kind = BOX;
+            a.half[0] = a.half[1] = b.half[2] = size;
+            a.shape.radius = 1;
+            b.half[0] = 1 + (REAL_EPSILON / 2) * 2;
+            b.half[1] = 4;
+            b.pose.p[0] = 1;
+            b.pose.p[1] = -1;
+            b.pose.p[2] = -1 - gap;
+            bind(&a);
+            bind(&b);
+            o.tight = 1;
+            assert_int_equal(V(distance)(&a.shape, &b.shape, &o, &r), GJK_OK);
+            const quad gap_of_all = -(quad)b.pose.p[2] - (quad)size - 1;
+            const quad apart = gap_of_all > 0 ? gap_of_all : 0;
+            assert_true(r.upper - r.lower <= 4 * (REAL_EPSILON / 2) * r.upper);
+            assert_true((quad)r.lower <= apart && (quad)r.upper >= apart);
+        }
+    }
+}
+
 /* A point beside a triangle, in the plane of it, by less than what is left out of their numbers: no depth of 0 is said
  * to be theirs. */
 static void unlike_and_hardly_beside(void **state)
@@ -1050,6 +1081,7 @@ int main(void)
         cmocka_unit_test_setup(unlike_and_sheared, fresh),
         cmocka_unit_test_setup(unlike_and_huge, fresh),
         cmocka_unit_test_setup(unlike_by_a_map, fresh),
+        cmocka_unit_test_setup(plates_of_next_to_no_size, fresh),
         cmocka_unit_test_setup(unlike_and_hardly_beside, fresh),
 #endif
         cmocka_unit_test_setup(flattened_box_in_couples, fresh),

@@ -328,6 +328,15 @@ static APART int holds_ball(const finish *f, real radius)
     return r;
 }
 
+/* The same without what is faint. FAULT: nothing is, or numbers were lost again. */
+static enum end climb_down_roughly(finish *f, search *q, int max_steps)
+{
+    if (!leave_out(&f->a, &f->b, q->d.unscale, &f->off)) return FAULT;
+    const enum end end = climb_down(f, q, max_steps);
+    if (end == STILL && holds_ball(f, f->off)) f->off = 0; /* as that these meet is true of the bodies */
+    return end;
+}
+
 /* From the simplex of q, to the end: STILL, and f's simplex is the nearest of all; OPEN: max_steps are used up; FAULT:
  * numbers were lost. */
 static enum end conclude(finish *f, search *q, const shape *a, const shape *b, int max_steps)
@@ -339,10 +348,8 @@ static enum end conclude(finish *f, search *q, const shape *a, const shape *b, i
         stay(f, q, weight);
         return STILL;
     }
-    enum end end = climb_down(f, q, max_steps);
-    if (end == FAULT && leave_out(&f->a, &f->b, q->d.unscale, &f->off)) end = climb_down(f, q, max_steps);
-    if (f->off > 0 && end == STILL && holds_ball(f, f->off)) f->off = 0; /* as that these meet is true of the bodies */
-    return end;
+    const enum end end = climb_down(f, q, max_steps);
+    return end == FAULT ? climb_down_roughly(f, q, max_steps) : end;
 }
 
 /* ---- the answer ---- */
