@@ -14,10 +14,10 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xaaecfe30a57b3e92, 0x2e82a211eff3a3d4, 0x5b7b79d488858c2d};
+static const uint64_t known[3] = {0x587e25364f126121, 0xa12fb5669713a1e5, 0x4b00cae3f49bba6c};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x71583cfa645042e7, 0x44d0d62eff8e6fab, 0x68c53829d885705b};
+static const uint64_t known[3] = {0x3a7a37259c54938d, 0x1d8d63f92b94bea9, 0xa3b24d6d8c38e84a};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0xa6855c340b4a21eb};

@@ -164,12 +164,29 @@ static int look_on(search *q, const shape *a, const shape *b, const options *o, 
     return 1;
 }
 
+/* The distance where a corner that was sought along v, with care, looks lower than it is but brings v no nearer, as one
+ * in the plane of a simplex does: that its roundings make it so is seen without them. */
+static int tell_distance_at_last(search *q, const shape *a, const shape *b, const goal *g, result *r)
+{
+    const real lower = q->lower;
+    const vec normal = q->normal;
+    if (g->sign_only || q->rough || q->s.n == 0) return 0;
+    q->steps++;
+    raise(q, q->v, spare(&q->s)->w);
+    if (tell_distance(q, a, b, g, STILL, r)) return 1;
+    q->steps--;
+    q->lower = lower;
+    q->normal = normal;
+    return 0;
+}
+
 /* By a walk, and what may tell where that ends. */
 static enum end walk_and_tell(search *q, const shape *a, const shape *b, const options *o, const goal *g, result *r)
 {
     const enum end end = walk(q, a, b, g, r);
     const int open = end == OPEN && q->steps < g->max_steps;
     if (!q->told) q->told = g->sign_only ? tell_sign(q, a, b, end, r) : tell_distance(q, a, b, g, end, r);
+    if (!q->told && open) q->told = tell_distance_at_last(q, a, b, g, r);
     if (!q->told && (end == STILL || open))
         q->told = (is_near(q) && ask_sister_near(q, a, b, o, g, r)) || tell_closely(q, a, b, g, open, r);
     if (q->told && o->cache) remember(o->cache, q, a, b);

@@ -160,11 +160,38 @@ static inline vec way_from_last(const search *q, const spots *p, vec low)
     return add(sub(p->w, c.w), sub(low, lost_of_spots(&q->d, &q->d.maps, &c)));
 }
 
+#if DIM == 3
+/* From one corner to another, by the bodies' own points: what that rounds is a share of it. */
+static vec own_edge(const search *q, const vertex *from, const vertex *to)
+{
+    const difference *d = &q->d;
+    const duos way = duos_sub(duos_at(to->x.c, to->y.c), duos_at(from->x.c, from->y.c));
+    const duos at = duos_mapped(&d->maps, duos_mul(way, d->grains));
+    return sub(vec_of_a(at), vec_of_b(at));
+}
+
+/* No corner is lower than the face along the way that is square to the face's own edges; v is as far off that as
+ * corners round. */
+static APART int is_face_lowest(search *q)
+{
+    const vertex *p = corner(&q->s, 0);
+    const vec square = cross(own_edge(q, p, corner(&q->s, 1)), own_edge(q, p, corner(&q->s, 2)));
+    const vec n = dot(square, q->v) < 0 ? mul(square, -1) : square;
+    vertex low;
+    if (!ask_on(&q->d, n, &low)) return 0;
+    const vec way = own_edge(q, &low, p);
+    return dot(n, way) < forgiven(DIM) * noise_along(n, way) || repeats(p, &low);
+}
+#else
+#define is_face_lowest(q) 0
+#endif
+
 /* That corner looked no lower along v than the pair, but it is, without these. */
-static int is_passed_over(const search *q, const spots *p, vec low)
+static int is_passed_over(search *q, const spots *p, vec low)
 {
     const vec way = way_from_last(q, p, low);
-    return dot(q->v, way) > forgiven(q->s.n) * noise_along(q->v, way);
+    if (!(dot(q->v, way) > forgiven(q->s.n) * noise_along(q->v, way))) return 0;
+    return q->s.n < DIM || !is_face_lowest(q);
 }
 
 /* How long w + low is, l being the length of w, to more digits than one number has: upper digits have exact squares,
