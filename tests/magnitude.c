@@ -579,6 +579,9 @@ static int is_about(const real *x, const real *y)
     return r;
 }
 
+/* Where the point is, to next to nothing. */
+enum { ANYWHERE, AT_A_CORNER, IN_ITS_MIDDLE };
+
 /* A point beside a box or in it, or a body without size under a map, and lengths that are normal but would not be in a
  * frame of the pair's size, which is asked only in some units: nothing is told by whether they are 0, and nothing by a
  * map that moves no point. */
@@ -591,7 +594,7 @@ static void another_unit_of_what_is_lost_in_the_frame(void **state)
     for (uint64_t n = 0; n < 400 * PAIRS; n++) {
         draws d = draws_from(19, 0, n);
         const int big = below(&d, LARGEST_PLAIN / 2), small = LEAST_EXPONENT + below(&d, 4), of_map = below(&d, 2);
-        const enum { ANYWHERE, AT_A_CORNER, IN_ITS_MIDDLE } place = below(&d, 3); /* to next to nothing */
+        const int place = below(&d, 3);
         const int by = below(&d, MOST_EXPONENT - HEADROOM - big), swapped = below(&d, 2);
         body *box = swapped ? &p.b : &p.a, *other = swapped ? &p.a : &p.b;
         memset(&p, 0, sizeof p);
