@@ -269,12 +269,12 @@ static int is_tame(const body *k) { return !unruly(k->stretch) && (k->size == 0 
 
 /* The body's map and its points' grain, where sizes are wild, now that the scale is known. The map is scaled by its
  * exponent, whose size need not be a number of the format; and what underflows all the same has no weight. That of a
- * set of no size keeps its digits, as where sizes are plain. */
+ * set of no size moves no point, but whether its entries are short is asked (touch.h): it comes to size 1 as it is. */
 static APART void fit_wild(body *k, real scale)
 {
-    real level = leveler(k->reach);
-    int e = exponent_of(scale) - exponent_of(k->unit) - exponent_of(level);
-    if (k->size == 0) e = exponent_of(leveler(k->stretch));
+    const real level = leveler(k->reach);
+    const int e = k->size == 0 ? exponent_of(leveler(k->stretch))
+                               : exponent_of(scale) - exponent_of(k->unit) - exponent_of(level);
     k->grain = k->posed ? level : scale / k->unit;
     for (int i = 0; i < DIM * DIM && k->posed; i++) k->fitted[i] = raised(k->m[i], e);
     k->m = k->fitted;

@@ -173,7 +173,7 @@ static APART enum end tighten(search *q, const shape *a, const shape *b, const g
     real ends[3];
     enum end end = conclude(&f, q, a, b, g->max_steps);
     if (end != STILL) return end;
-    if (!enclose(&f, a->radius, b->radius, ends)) { /* its digits, and the radii's, were too many */
+    if (!enclose(&f, a->radius, b->radius, ends)) { /* with the radii's too many digits */
         end = climb_down_roughly(&f, q, g->max_steps);
         if (end != STILL) return end;
         if (!enclose(&f, a->radius, b->radius, ends)) return FAULT;

@@ -46,6 +46,7 @@ HOT hint hint_of_box(const body *k, int of_a, vec half, vec own, vec c, vec uu, 
     const real least = least_of_note(whole, level);
     const vec at = of_a ? add(own, c) : sub(own, c), x = seen_along(k, at, uu, level);
     const vec foot = clamped(x, half), there = mapped(k, foot);
+    /* in it, or so near to it that the way there is none */
     const int inside = peak(sub(foot, x)) <= least && peak(half) > least;
     hint e = {.a = of_a ? there : own, .b = of_a ? own : there, .least = UNIT * whole};
     vec way = sub(at, there);
