@@ -29,18 +29,15 @@ static inline real upper_half(real a)
  * that power. */
 #define ROUNDING_TO(places) ((real)((bits)3 << (MANTISSA - (places)-1)))
 
-/* The upper digits of x, which is within that size, a power of two: whole multiples of 2^-GRID of it. A sum of DIM
- * products of such multiples, each row of a map within its size, is exact. */
+/* The upper digits of x, which is within that size: whole multiples of 2^-GRID of it, or of a power of two near it. A
+ * sum of DIM products of such multiples, each row of a map within its size, is exact. */
 #define GRID (MANTISSA / 2)
+#define DIGITS_OFF ROUNDING_TO(GRID)
 static inline real upper_digits(real x, real size)
 {
-    const real big = size * ROUNDING_TO(GRID);
+    const real big = size * DIGITS_OFF;
     return (x + big) - big;
 }
-
-/* Added to a number and taken away again this times a bound of it, so many upper digits are left that a product of two
- * such, and the sum of DIM of these, is exact. */
-#define DIGITS_OFF ROUNDING_TO(GRID)
 
 /* A power of two above x. */
 static inline real above(real x)

@@ -198,9 +198,9 @@ static int is_passed_over(search *q, const spots *p, vec low)
  * and so are their sums. */
 HOT twin length_by_digits(vec w, real l, vec low)
 {
-    const real off = spread(w) * DIGITS_OFF, l_up = (l + off) - off, l_rest = l - l_up;
+    const real far = spread(w), l_up = upper_digits(l, far), l_rest = l - l_up;
     vec up;
-    EACH(up.c[i] = (w.c[i] + off) - off);
+    EACH(up.c[i] = upper_digits(w.c[i], far));
     const vec rest = sub(w, up);
     const real square = dot(up, up) - l_up * l_up;
     const real more = 2 * (dot(up, rest) - l_up * l_rest + dot(w, low)) + (dot(rest, rest) - l_rest * l_rest);

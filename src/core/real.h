@@ -126,6 +126,7 @@ static inline real signed_as(real x, real y)
     return x;
 }
 
+/* 0 where it is so small that it is to count for nothing. */
 static inline real unless_below(real x, real least) { return size(x) < least ? 0 : x; }
 
 static inline int bounded(real x) { return size(x) <= REAL_MAX; }
