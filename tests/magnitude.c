@@ -902,6 +902,29 @@ static void expect_small(const char *where, double worst)
     assert_true(worst <= VALUE_ERROR);
 }
 
+/* A point with a radius on a segment without one: so deep to the last bit. */
+static void as_deep_as_the_radius(void **state)
+{
+    static pair p;
+    (void)state;
+    for (uint64_t n = 0; n < 100 * PAIRS; n++) {
+        draws d = draws_from(21, 0, n);
+        V(result) r;
+        memset(&p, 0, sizeof p);
+        start_body(&p.a, SEGMENT);
+        start_body(&p.b, n % 2 ? BOX : ORIGIN); /* of no size */
+        p.a.v[0][0] = (real)-below(&d, 4);
+        p.a.v[1][0] = (real)(1 + below(&d, 4));
+        p.b.shape.radius = (real)between(&d, 0.5, 2);
+        for (int i = 0; i < DIM; i++) {
+            p.a.pose.p[i] = p.b.pose.p[i] = (real)(below(&d, 9) - 4);
+        }
+        bind_pair(&p);
+        assert_int_equal(V(penetration)(&p.a.shape, &p.b.shape, NULL, &r), GJK_OK);
+        assert_true(r.value == -p.b.shape.radius);
+    }
+}
+
 #if DIM == 3
 /* Four corners in a plane, but for some roundings of one of them, and another cloud over them: what tells that the face
  * of three is nearest must see whether the fourth lies lower. */
@@ -1063,6 +1086,7 @@ int main(void)
         cmocka_unit_test(another_unit_of_unlike_lengths),
         cmocka_unit_test(another_unit_of_what_is_lost_in_the_frame),
         cmocka_unit_test(another_unit_of_points_with_radii),
+        cmocka_unit_test(as_deep_as_the_radius),
 #if DIM == 3
         cmocka_unit_test(another_unit_without_a_fan),
         cmocka_unit_test(faces_hardly_bent),
