@@ -598,11 +598,12 @@ static void another_unit_of_what_is_lost_in_the_frame(void **state)
         const int by = below(&d, MOST_EXPONENT - HEADROOM - big), swapped = below(&d, 2);
         body *box = swapped ? &p.b : &p.a, *other = swapped ? &p.a : &p.b;
         memset(&p, 0, sizeof p);
-        draw_unlike(&d, box, BOX, big, of_map ? big : small);
+        draw_unlike(&d, box, of_map && below(&d, 2) ? POINTS : BOX, big, of_map ? big : small);
         draw_unlike(&d, other, of_map ? SEGMENT : ORIGIN, big, of_map ? big : small);
         if (of_map) {
             const int down = -below(&d, LARGEST_PLAIN);
             memset(box->half, 0, sizeof box->half);
+            memset(box->v, 0, sizeof box->v);
             resize_all(box->pose.m, box->pose.m, DIM * DIM, down);
         } else if (place != ANYWHERE) {
             set_straight(box);
@@ -614,6 +615,9 @@ static void another_unit_of_what_is_lost_in_the_frame(void **state)
         }
         bind_pair(&p);
         resize_pair(&q, &p, by, 0);
+        if (box->kind == POINTS && below(&d, 2)) {
+            box->set.points.reach = (swapped ? &q.b : &q.a)->set.points.reach = 0;
+        }
         for (int kind = 0; kind <= KINDS - of_map; kind++) {
             memset(&x, 0, sizeof x);
             memset(&y, 0, sizeof y);
