@@ -91,23 +91,23 @@ HOT int tell_flat_held(const flat *f, const dfront *k, result *r)
     return spell_flat(f, k, &s, k->height * s.per - f->radius - blur, upper, upper, 0, r);
 }
 
-/* Both numbers are whole multiples of what 1.5 * 2^52 of is off. */
-HOT int is_dwhole(dvec x, dvec off) { return dsame(dsub(dadd(x, off), off), x); }
+/* What both numbers are more than whole multiples of what 1.5 * 2^52 of is off; 0 of no such. */
+HOT dvec beyond_whole(dvec x, dvec off) { return dsizes(dsub(dsub(dadd(x, off), off), x)); }
 
-/* So are the products that the body's corner is placed by, which are exact. */
-HOT int is_placed_whole(const flat_body *s, unsigned at, dvec off)
+/* Likewise the products that the body's corner is placed by, which are exact. */
+HOT dvec placed_beyond_whole(const flat_body *s, unsigned at, dvec off)
 {
     const dvec x = corner_in_flat(s, at);
-    return is_dwhole(dtimes(s->row[0], x), off) & is_dwhole(dtimes(s->row[1], x), off);
+    return dadd(beyond_whole(dtimes(s->row[0], x), off), beyond_whole(dtimes(s->row[1], x), off));
 }
 
-/* Of all corners they are. */
+/* Those of all corners are whole. */
 static APART int are_placed_whole(const flat_body *s, dvec off)
 {
     const unsigned places = has_more_than_run(s) ? PLACES : RUN;
-    int whole = 1;
-    for (unsigned i = 0; i < places; i++) whole &= is_placed_whole(s, i, off);
-    return whole;
+    dvec rest = dboth(0);
+    for (unsigned i = 0; i < places; i++) rest = dadd(rest, placed_beyond_whole(s, i, off));
+    return dsame(rest, dboth(0));
 }
 
 /* 1.5 * 2^52 of what is 2^-26 of a power of two above x. */
@@ -143,19 +143,20 @@ HOT int weigh_flat(const dspot *const at[3], int n, double weight[3])
 
 /* That the cores touch, where the walk has come to, of corners whose places are short numbers: with nothing rounded; or
  * do no more, if that is asked. 0: they are none, or do not. */
-static APART int tell_flat_touching(const flat *f, dfront own, int deep, result *r)
+static APART int tell_flat_touching(const flat *f, const dfront *k, int deep, result *r)
 {
-    const dfront *k = &own;
     const int n = k->n + k->around;
     const dspot *const at[3] = {&k->p, k->n > 1 ? &k->q : &k->p, k->around ? &k->last : &k->p};
     const dvec off = dboth(off_above(f->wide * (1 / FLAT_WIDTH)));
     dsight s = {.a = dboth(0), .v = k->way};
     double weight[3];
     if (k->n == 0 || k->steps == 0 || !weigh_flat(at, n, weight)) return 0;
-    int whole = is_dwhole(f->a.p, off) & is_dwhole(f->b.p, off);
-    for (int i = 0; i < n; i++)
-        whole &= is_placed_whole(&f->a, at_in_a(at[i]->at), off) & is_placed_whole(&f->b, at_in_b(at[i]->at), off);
-    if (!whole) return 0;
+    dvec rest = dadd(beyond_whole(f->a.p, off), beyond_whole(f->b.p, off));
+    for (int i = 0; i < n; i++) {
+        rest = dadd(rest, placed_beyond_whole(&f->a, at_in_a(at[i]->at), off));
+        rest = dadd(rest, placed_beyond_whole(&f->b, at_in_b(at[i]->at), off));
+    }
+    if (!dsame(rest, dboth(0))) return 0;
     const double sum = weight[0] + weight[1] + weight[2];
     for (int i = 0; i < n; i++) s.a = dadd(s.a, dmul(at[i]->a, weight[i] / sum));
     s.per = 1 / dlength(k->way);
@@ -309,7 +310,10 @@ HOT int tell_walked_flat(const flat *f, dfront *k, enum halt at, int recalled, c
                : at == FOREMOST ? tell_flat_front(f, k, a, b, g, r)
                : at == AROUND   ? DEPTHS && g->deep ? tell_flat_deep(f, k, a, b, g, r) : tell_flat_held(f, k, r)
                                 : 0;
-    if (!told && f->radius == 0) told = tell_flat_touching(f, *k, g->deep, r);
+    if (!told && f->radius == 0) {
+        const dfront last = *k; /* by whose address k is not known */
+        told = tell_flat_touching(f, &last, g->deep, r);
+    }
     if (told && own) {
         if (k->n == 0) stand_on_dspot(k, k->last);
         pass_flat_on(own, f, k, recalled, a, b);
@@ -317,19 +321,34 @@ HOT int tell_walked_flat(const flat *f, dfront *k, enum halt at, int recalled, c
     return told;
 }
 
-/* From the first look along a front, where it has found a lower corner; or, at its end, tells too little. */
-static APART int go_on_flat(const flat *f, const dfront *first, const dlook *l, const dstart *t, enum halt at,
-                            const shape *a, const shape *b, cache *own, const goal *g, result *r)
+/* The front from which the walk goes on, and the corner that has been seen along it, in so many steps. */
+HOT void stand_where_looked(const flat *f, dfront *k, dvec way, int steps, const dlook *l, const dstart *t)
 {
-    dfront k = *first;
-    stand_as_started(f, &k, t);
-    find_last(f, &k, l);
-    if (at == FOREMOST) {
-        if (f->radius > 0 || !tell_flat_touching(f, k, g->deep, r)) return 0;
-        if (own) pass_flat_on(own, f, &k, 0, a, b);
-        return 1;
-    }
-    at = FOREMOST;
+    k->v = k->way = way;
+    k->steps = steps;
+    k->around = k->under = 0;
+    stand_as_started(f, k, t);
+    find_last(f, k, l);
+}
+
+/* From the first look along a front, where no corner is lower, but that tells too little: they may touch. */
+static APART int touch_at_start(const flat *f, dvec way, int steps, const dlook *l, const dstart *t, const shape *a,
+                                const shape *b, cache *own, int deep, result *r)
+{
+    dfront k;
+    stand_where_looked(f, &k, way, steps, l, t);
+    if (!tell_flat_touching(f, &k, deep, r)) return 0;
+    if (own) pass_flat_on(own, f, &k, 0, a, b);
+    return 1;
+}
+
+/* The same, where one may be. */
+static APART int go_on_flat(const flat *f, dvec way, int steps, const dlook *l, const dstart *t, const shape *a,
+                            const shape *b, cache *own, const goal *g, result *r)
+{
+    dfront k;
+    stand_where_looked(f, &k, way, steps, l, t);
+    enum halt at = FOREMOST;
     if (!is_flat_foremost(f, &k)) {
         k.around = !turn_flat(&k);
         at = k.around ? AROUND : walk_flat(f, &k, g);
@@ -368,10 +387,10 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
         }
         return 1;
     }
-    const dfront first = *k;
     const dlook look = l;
     const dstart start = t;
-    return go_on_flat(f, &first, &look, &start, at, a, b, own, g, r);
+    if (at == LOST) return go_on_flat(f, k->way, k->steps, &look, &start, a, b, own, g, r);
+    return !(f->radius > 0) && touch_at_start(f, k->way, k->steps, &look, &start, a, b, own, g->deep, r);
 }
 
 /* The corner of the difference that these make. */
