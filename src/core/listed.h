@@ -111,12 +111,20 @@ static void know_offset(difference *d, const shape *a, const shape *b)
 }
 
 /* And what else the search needs. */
+static void settle_body(body *k)
+{
+    k->in = NULL;
+    k->unit = 1;
+    k->ease = larger(leveler(k->stretch), EASE);
+}
+
 static void settle_rest(difference *d, const shape *a, const shape *b)
 {
     if (d->wild) return;
     know_offset(d, a, b);
-    d->a.ease = larger(leveler(d->a.stretch), EASE);
-    d->b.ease = larger(leveler(d->b.stretch), EASE);
+    d->lost = 0;
+    settle_body(&d->a);
+    settle_body(&d->b);
 }
 
 /* The frame of any sizes, now that the reaches are known. 0: the shapes are none, or beyond all numbers. */

@@ -285,7 +285,7 @@ static void start_finish(finish *f, const shape *a, const shape *b)
     f->a = outline_of(a);
     f->b = outline_of(b);
     f->off = 0;
-    f->n = f->lost = 0;
+    f->n = f->lost = f->squared = 0;
 }
 
 /* Leaves out what is faint in a frame of that size. 0: that has been left out, or there is nothing. */
