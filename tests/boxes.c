@@ -463,6 +463,35 @@ static void signs_of_boxes(void **state)
     assert_int_equal(found.count, 0);
 }
 
+/* Where a radius keeps the cores apart whose bounds nearly touch: how deep they are is how far apart, to the bit. */
+static void apart_by_a_radius(void **state)
+{
+    long apart = 0;
+    (void)state;
+    for (at = 0; at < 4 * BOX_PAIRS; at++) {
+        draws d = draws_from(3, 0, (uint64_t)at);
+        V(result) r, deep;
+        memset(&r, 0, sizeof r);
+        memset(&deep, 0, sizeof deep);
+        draw_boxes(&d, SPUN, (enum placed)below(&d, PLACES));
+        (below(&d, 2) ? &p.a : &p.b)->shape.radius = (real)between(&d, 0.01, 0.3);
+        bring_near(&d);
+        r.status = V(distance)(&p.a.shape, &p.b.shape, NULL, &r);
+        deep.status = V(penetration)(&p.a.shape, &p.b.shape, NULL, &deep);
+        if (!(r.lower > 0)) {
+            continue;
+        }
+        apart++;
+        if (r.status != deep.status || r.value != deep.value || r.lower != deep.lower || r.upper != deep.upper) {
+            print_case(stderr, "penetration", &p.a, &p.b);
+            fail_msg("%s: distance %.17g in %.17g .. %.17g, penetration %.17g in %.17g .. %.17g", VARIANT,
+                     (double)r.value, (double)r.lower, (double)r.upper, (double)deep.value, (double)deep.lower,
+                     (double)deep.upper);
+        }
+    }
+    assert_true(apart > BOX_PAIRS);
+}
+
 /* ---- numbers that underflow on the way ---- */
 
 /* The least number above 0. */
@@ -799,6 +828,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depths_of_boxes),
         cmocka_unit_test(signs_of_boxes),
+        cmocka_unit_test(apart_by_a_radius),
         cmocka_unit_test(numbers_that_underflow),
         cmocka_unit_test(axes_short_by_roundings),
         cmocka_unit_test(in_line_in_another_unit),

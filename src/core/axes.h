@@ -414,6 +414,20 @@ static inline real apart_by(const search *q, const shape *a, const shape *b)
     return -(a->radius + b->radius) * q->d.scale - q->d.doubt;
 }
 
+#if DIM == 3
+/* The way across the first pair of axes along which they seem to be apart. 0: there is none, and across all they reach
+ * into each other by so much. */
+static inline int find_gap_across(const search *q, const gauge *k, const shape *a, const shape *b, real across[9],
+                                  vec *way)
+{
+    const int gap = first_gap_across(k, apart_by(q, a, b), across);
+    if (gap < 0) return 0;
+    *way = cross(axis_of(k, gap / 3), axis_of(k, DIM + gap % 3));
+    *way = mul(*way, -signed_as(1, dot(*way, q->d.c)));
+    return 1;
+}
+#endif
+
 /* Of boxes that are not apart along any axis, as it seems, and reach into each other by that least height along one of
  * them: whether there is a point of both. If not, the way across a pair of axes along which they seem to be apart; 0:
  * there is none. */
@@ -427,13 +441,8 @@ static APART int tell_inside(search *q, const gauge *k, const real h[AXES], vec 
     if (try_of_a(q, k, x, a, b, r) || try_of_b(q, k, y, a, b, r)) return 1;
 #if DIM == 3
     real across[9], lowest = height * height;
-    const int gap = first_gap_across(k, apart_by(q, a, b), across);
     int edges = -1;
-    if (gap >= 0) {
-        *way = cross(axis_of(k, gap / 3), axis_of(k, DIM + gap % 3));
-        *way = mul(*way, -signed_as(1, dot(*way, q->d.c)));
-        return 0;
-    }
+    if (find_gap_across(q, k, a, b, across, way)) return 0;
     for (int i = 0; i < 9; i++) {
         const real ll = square_across(k, i / 3, i % 3);
         if (!(across[i] * across[i] < lowest * ll) || !(ll > PARALLEL)) continue;

@@ -282,6 +282,18 @@ static int tell_nearest(search *q, const gauge *k, vec x, vec y, const shape *a,
     return 1;
 }
 
+/* What tell_inside finds across the axes, so that the same is left to the walk where it is asked how deep they are. */
+static inline void look_for_gap_across(const search *q, const gauge *k, const shape *a, const shape *b, vec *way)
+{
+    *way = axis(0, 0);
+#if DIM == 3
+    real across[9];
+    (void)find_gap_across(q, k, a, b, across, way);
+#else
+    (void)q, (void)k, (void)a, (void)b;
+#endif
+}
+
 /* How far apart two boxes are; or that they meet, if it is not asked how deep. 0: it is left to the walk. */
 static APART int tell_gap(search *q, const shape *a, const shape *b, const goal *g, result *r)
 {
@@ -293,8 +305,9 @@ static APART int tell_gap(search *q, const shape *a, const shape *b, const goal 
     for (int i = 0; i < DIM; i++) h[i] = reach_along_a(&k, i);
     for (int i = 0; i < DIM; i++) h[DIM + i] = reach_along_b(&k, i);
     const int least = least_of(h, AXES);
-    if (!g->deep && !(h[least] < -q->d.doubt)) {
-        if (tell_inside(q, &k, h, &way, a, b, r)) return 1;
+    if (!(h[least] < -q->d.doubt)) {
+        if (g->deep) look_for_gap_across(q, &k, a, b, &way);
+        else if (tell_inside(q, &k, h, &way, a, b, r)) return 1;
         if (!(peak(way) > 0)) return 0;
     }
     const real blurred = 32 * q->d.doubt + (1 + 16 * UNIT) * g->radius; /* as tell_nearest has it */
