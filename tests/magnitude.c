@@ -698,6 +698,39 @@ static void another_unit_of_flat_clouds(void **state)
     assert_true(apart > 1000);
 }
 
+/* A cloud without size, of a reach that nobody said, under a map beside which the unit is so small that its reach, as
+ * it is found, would be a length. */
+static void another_unit_without_size(void **state)
+{
+    static pair p, q;
+    V(result) x, y;
+    (void)state;
+    for (uint64_t n = 0; n < 100 * PAIRS; n++) {
+        draws d = draws_from(20, 0, n);
+        const int by = LEAST_EXPONENT + 32 + below(&d, -LEAST_EXPONENT / 2), to = below(&d, LARGEST_PLAIN);
+        memset(&p, 0, sizeof p);
+        start_body(&p.a, POINTS);
+        p.a.count = 1 + below(&d, 4);
+        resize_all(p.a.pose.m, p.a.pose.m, DIM * DIM, to);
+        start_body(&p.b, POINTS);
+        p.b.count = DIM + 2;
+        for (int i = 0; i < DIM * p.b.count; i++) {
+            p.b.v[i / DIM][i % DIM] = (real)(below(&d, 9) - 4);
+        }
+        for (int i = 0; i < DIM; i++) {
+            p.a.pose.p[i] = (real)(below(&d, 17) - 8);
+        }
+        bind_pair(&p);
+        resize_pair(&q, &p, by, 0);
+        p.a.set.points.reach = q.a.set.points.reach = 0;
+        memset(&x, 0, sizeof x);
+        memset(&y, 0, sizeof y);
+        x.status = V(distance)(&p.a.shape, &p.b.shape, NULL, &x);
+        y.status = V(distance)(&q.a.shape, &q.b.shape, NULL, &y);
+        assert_int_equal(first_difference(&x, &y, by, 0), -1);
+    }
+}
+
 /* Two points with radii, on one another or apart along an axis by a number of few digits: to the last bit the sum of a
  * few numbers, which may be a tie between two more. */
 static void another_unit_of_points_with_radii(void **state)
@@ -1087,6 +1120,7 @@ int main(void)
         cmocka_unit_test(another_unit_of_boxes_in_line),
         cmocka_unit_test(another_unit_of_flat_boxes),
         cmocka_unit_test(another_unit_of_flat_clouds),
+        cmocka_unit_test(another_unit_without_size),
         cmocka_unit_test(another_unit_of_unlike_lengths),
         cmocka_unit_test(another_unit_of_what_is_lost_in_the_frame),
         cmocka_unit_test(another_unit_of_points_with_radii),

@@ -216,12 +216,14 @@ static int ask_first(difference *d, vec v, vertex *p, real reach[2])
            call(d, &d->b, direction_for(d, &d->b, v), &p->y, &reach[1]);
 }
 
-/* Takes the reach that a support has said, or finds it. 0: there is none. */
+/* Takes the reach that a support has said, or finds it, and with that whether a cloud is of any size. 0: there is none.
+ */
 static int measure(difference *d, body *k, real said, real slack)
 {
     if (said == 0) d->calls += SURVEY_CALLS;
     if (said == 0 && slack > 0) d->loose = 1;
     know_reach(k, said == 0 ? surveyed(k->support, k->data, slack) : said);
+    if (k->asked == AS_LIST && said == 0 && k->reach <= SURVEYED_NOTHING) k->size = 0;
     return k->reach <= REAL_MAX;
 }
 

@@ -7,6 +7,9 @@
 
 #define SURVEY_CALLS (2 * DIM)
 
+/* What comes of points that are all 0, without slack, and of no others. */
+#define SURVEYED_NOTHING (4 * TINY)
+
 /* Not finite where the support's answers are no points, or do say. */
 static real surveyed(support_fn *support, const void *data, real slack)
 {
@@ -19,7 +22,7 @@ static real surveyed(support_fn *support, const void *data, real slack)
             far.c[j] = larger(size(x.c[j]) + slack, far.c[j]);
         }
     }
-    return spread(far) * (1 + 16 * UNIT) + 4 * TINY;
+    return spread(far) * (1 + 16 * UNIT) + SURVEYED_NOTHING;
 }
 
 #endif
