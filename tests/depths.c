@@ -1882,6 +1882,29 @@ static void last_places_of_depths(void **state)
     assert_int_equal(l.settled, l.pairs);
 }
 
+#if DIM == 2 && VARIANT_FLOAT
+/* Cores that overlap by next to nothing beside the radius, which takes the most of all digits. */
+static void last_place_beside_a_radius(void **state)
+{
+    static const real v[3][DIM] = {{0x1.8p-23f, -0x1p-23f}, {-0x1.671898p-24f, -0x1.8p+1f}, {0, 0x1.16c424p-24f}};
+    last_places l;
+    (void)state;
+    memset(&l, 0, sizeof l);
+    memset(&drawn, 0, sizeof drawn);
+    start_body(&drawn.a, BOX);
+    start_body(&drawn.b, POINTS);
+    drawn.a.half[1] = 3;
+    drawn.a.shape.radius = 0x1.07b434p+0f;
+    drawn.b.count = 3;
+    memcpy(drawn.b.v, v, sizeof v);
+    bind_pair(&drawn);
+    p = &drawn;
+    ask_to_the_last_place(&l);
+    assert_int_equal(l.settled, 1);
+    assert_true(l.max_error <= 1);
+}
+#endif
+
 /* Corners on a grid or not, under a map that flattens them all but for its rounding, or just as they are. */
 static void draw_flattened(draws *d, body *b, int flat)
 {
@@ -2575,6 +2598,9 @@ int main(int argc, char **argv)
 #endif
         cmocka_unit_test(small_cores),
         cmocka_unit_test(last_places_of_depths),
+#if DIM == 2 && VARIANT_FLOAT
+        cmocka_unit_test(last_place_beside_a_radius),
+#endif
         cmocka_unit_test(flattened_to_the_last_place),
         cmocka_unit_test(flat_pairs),
         cmocka_unit_test(uneven),

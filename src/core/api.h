@@ -273,6 +273,15 @@ static int is_to_last_place(const result *r)
     return r->upper - r->lower <= 8 * UNIT * larger(size(r->lower), size(r->upper)) + 8 * TINY;
 }
 
+/* A depth to the last place: not at an end of its bracket, if that has a number within, which is a step from all in it.
+ */
+static real off_the_ends(const result *r)
+{
+    const real amid = r->lower + (r->upper - r->lower) / 2;
+    const int at_end = r->value == r->lower || r->value == r->upper;
+    return at_end && r->value != 0 && amid > r->lower && amid < r->upper && is_to_last_place(r) ? amid : r->value;
+}
+
 static int answer_penetration(search *q, const shape *a, const shape *b, const options *given, result *out)
 {
     options own;
@@ -290,6 +299,7 @@ static int answer_penetration(search *q, const shape *a, const shape *b, const o
     if (bad) return bad;
     r.lower = larger(r.lower, -REAL_MAX); /* any slack may have been taken off */
     r.value = smaller(larger(r.value, r.lower), r.upper);
+    if (g.tight && r.upper < 0) r.value = off_the_ends(&r);
     r.status = distance_status(&r, o, end, q, g.radius, 1);
     if (g.tight && r.status == GJK_OK && !narrow(&r, o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
     *out = r;
