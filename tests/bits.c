@@ -31,9 +31,7 @@ typedef float real;
 typedef double real;
 #endif
 
-#ifndef PAIRS
 #define PAIRS 3000
-#endif
 #define MOST_POINTS 100
 
 typedef struct body {

@@ -110,7 +110,7 @@ static void know_offset(difference *d, const shape *a, const shape *b)
     if (!d->wild) d->c_low = mul(offset_low(a->pose, b->pose), d->scale);
 }
 
-/* And what else the search needs. */
+/* A body whose corners are listed is asked in the caller's unit. */
 static void settle_body(body *k)
 {
     k->in = NULL;
@@ -118,6 +118,7 @@ static void settle_body(body *k)
     k->ease = larger(leveler(k->stretch), EASE);
 }
 
+/* And what else the search needs. */
 static void settle_rest(difference *d, const shape *a, const shape *b)
 {
     if (d->wild) return;
