@@ -24,7 +24,7 @@ HOT int tell_flat_sight(const flat *f, const dfront *k, dsight *s, double low, d
     if (!(lower > 0) && !meet) return 0;
     if (!narrow && (meet ? g->deep : !g->sign_only)) return 0;
     if (f->radius > 0) move_flat(s, (double)a->radius, (double)b->radius, meet, g->deep);
-    return spell_flat(f, k, s, lower, upper, s->far - f->radius, !meet || g->deep, r);
+    return spell_flat(f, k->steps, s, lower, upper, s->far - f->radius, !meet || g->deep, r);
 }
 
 /* The same where the last corner was asked for along it. */
@@ -55,7 +55,7 @@ HOT int tell_flat_apart(const flat *f, const dfront *k, const shape *a, const sh
     const double lower = k->height * s.per - f->radius - blur;
     if (!(lower > 0)) return 0;
     if (f->radius > 0) move_flat(&s, (double)a->radius, (double)b->radius, 0, 0);
-    return spell_flat(f, k, &s, lower, s.far - f->radius + blur, lower, 1, r);
+    return spell_flat(f, k->steps, &s, lower, s.far - f->radius + blur, lower, 1, r);
 }
 
 /* By how much the origin is to the left of an edge, times its length, and the square of how far that is. */
@@ -88,7 +88,7 @@ HOT int tell_flat_held(const flat *f, const dfront *k, result *r)
     off = dsizes(off);
     if (!(dfirst(off) + dsecond(off) <= f->wide)) return 0;
     const double upper = blur - inside - f->radius;
-    return spell_flat(f, k, &s, k->height * s.per - f->radius - blur, upper, upper, 0, r);
+    return spell_flat(f, k->steps, &s, k->height * s.per - f->radius - blur, upper, upper, 0, r);
 }
 
 /* What both numbers are more than whole multiples of what 1.5 * 2^52 of is off; 0 of no such. */
@@ -141,13 +141,28 @@ HOT int weigh_flat(const dspot *const at[3], int n, double weight[3])
     return (least < 0) != (most > 0);
 }
 
+/* The corners' places are short numbers where nothing of them is beyond this. */
+HOT dvec off_for(const flat *f) { return dboth(off_above(f->wide * (1 / FLAT_WIDTH))); }
+
+/* That they touch in the point seen, and are apart by no less than so high a corner tells; or do no more, if that is
+ * asked. 0: that is not known. */
+HOT int spell_touching(const flat *f, int steps, const dsight *s, double height, int deep, result *r)
+{
+    const double lower = height * s->per - f->blur;
+    if (deep && !(-lower <= f->wide && 1 > f->blur * AWAY * s->per)) return 0;
+    if (!spell_flat(f, steps, s, lower, 0, 0, 0, r)) return 0;
+    const int whole = deep && height == 0 && are_placed_whole(&f->a, off_for(f)) && are_placed_whole(&f->b, off_for(f));
+    if (whole) r->lower = 0;
+    return 1;
+}
+
 /* That the cores touch, where the walk has come to, of corners whose places are short numbers: with nothing rounded; or
  * do no more, if that is asked. 0: they are none, or do not. */
 static APART int tell_flat_touching(const flat *f, const dfront *k, int deep, result *r)
 {
     const int n = k->n + k->around;
     const dspot *const at[3] = {&k->p, k->n > 1 ? &k->q : &k->p, k->around ? &k->last : &k->p};
-    const dvec off = dboth(off_above(f->wide * (1 / FLAT_WIDTH)));
+    const dvec off = off_for(f);
     dsight s = {.a = dboth(0), .v = k->way};
     double weight[3];
     if (k->n == 0 || k->steps == 0 || !weigh_flat(at, n, weight)) return 0;
@@ -160,11 +175,7 @@ static APART int tell_flat_touching(const flat *f, const dfront *k, int deep, re
     const double sum = weight[0] + weight[1] + weight[2];
     for (int i = 0; i < n; i++) s.a = dadd(s.a, dmul(at[i]->a, weight[i] / sum));
     s.per = 1 / dlength(k->way);
-    const double lower = k->height * s.per - f->blur;
-    if (deep && !(-lower <= f->wide && 1 > f->blur * AWAY * s.per)) return 0;
-    if (!spell_flat(f, k, &s, lower, 0, 0, 0, r)) return 0;
-    if (deep && k->height == 0 && are_placed_whole(&f->a, off) && are_placed_whole(&f->b, off)) r->lower = 0;
-    return 1;
+    return spell_touching(f, k->steps, &s, k->height, deep, r);
 }
 
 /* ---- the first front ---- */
@@ -203,7 +214,8 @@ HOT void find_two(const flat_body *s, const dheights *h, unsigned at[2])
 typedef struct dstart {
     unsigned of_a[2], of_b[2];
     dvec gain;   /* which is the nearer of a's edge and b's, where they meet; */
-    double part; /* at this share of it the nearest point is */
+    double part; /* at this share of it the nearest point is; */
+    double off;  /* so far to the left of it the origin, times its length; 0 of a corner */
 } dstart;
 
 /* The first front, by a look: the nearer of the edges, one of each body, that meet in the lowest corner of all; which
@@ -233,6 +245,7 @@ HOT void start_flat(const flat *f, dfront *k, const dlook *l, dstart *t, dsight 
     k->v = dwhere_below(none, edge, dflipped(square, side != 0 ? side : ddot(square, k->way)), s->way);
     t->gain = gain;
     t->part = dfirst(part);
+    t->off = side;
 }
 
 /* The front that it is. */
@@ -243,6 +256,21 @@ HOT void stand_as_started(const flat *f, dfront *k, const dstart *t)
     k->p = t->part < 1 ? p : q;
     k->q = t->part > 0 ? q : p;
     k->n = t->part > 0 && t->part < 1 ? 2 : 1;
+}
+
+/* To the cache, for the next query, the front, if that is not there. */
+HOT void pass_flat_on(cache *own, const flat *f, const dfront *k, int recalled, const shape *a, const shape *b)
+{
+    const uint32_t count = (uint32_t)(k->n + k->around), hint = dhint_of(k);
+    if (!recalled || own->count != count || own->reserved != hint) keep_flat(own, f, count, hint, a, b);
+}
+
+/* The same of the first front. */
+static APART void keep_start(cache *own, const flat *f, const dstart *t, const shape *a, const shape *b)
+{
+    dfront k = {.around = 0};
+    stand_as_started(f, &k, t);
+    pass_flat_on(own, f, &k, 0, a, b);
 }
 
 /* ---- the walk ---- */
@@ -295,13 +323,6 @@ HOT int set_flat(flat *f, const shape *a, const shape *b)
     return 1;
 }
 
-/* To the cache, for the next query, the front, if that is not there. */
-HOT void pass_flat_on(cache *own, const flat *f, const dfront *k, int recalled, const shape *a, const shape *b)
-{
-    const uint32_t count = (uint32_t)(k->n + k->around), hint = dhint_of(k);
-    if (!recalled || own->count != count || own->reserved != hint) keep_flat(own, f, count, hint, a, b);
-}
-
 /* What the walk has found. */
 HOT int tell_walked_flat(const flat *f, dfront *k, enum halt at, int recalled, const shape *a, const shape *b,
                          cache *own, const goal *g, result *r)
@@ -331,18 +352,23 @@ HOT void stand_where_looked(const flat *f, dfront *k, dvec way, int steps, const
     find_last(f, k, l);
 }
 
-/* From the first look along a front, where no corner is lower, but that tells too little: they may touch. */
-static APART int touch_at_start(const flat *f, dvec way, int steps, const dlook *l, const dstart *t, const shape *a,
-                                const shape *b, cache *own, int deep, result *r)
+/* Where the first front is an edge, beyond which no corner is lower, that holds the origin: that the cores touch, as
+ * tell_flat_touching has it. The edge's products are exact, so that they tell where on it the origin is. */
+static APART int touch_at_start(const flat *f, int steps, double height, const dsight *s, const dstart *t,
+                                const shape *a, const shape *b, cache *own, int deep, result *r)
 {
-    dfront k;
-    stand_where_looked(f, &k, way, steps, l, t);
-    if (!tell_flat_touching(f, &k, deep, r)) return 0;
-    if (own) pass_flat_on(own, f, &k, 0, a, b);
+    const int is_b = dfirst(t->gain) < dsecond(t->gain);
+    const dvec off = off_for(f);
+    dvec rest = dadd(beyond_whole(f->a.p, off), beyond_whole(f->b.p, off));
+    rest = dadd(rest, placed_beyond_whole(&f->a, t->of_a[0], off));
+    rest = dadd(rest, placed_beyond_whole(&f->b, t->of_b[0], off));
+    rest = dadd(rest, placed_beyond_whole(is_b ? &f->b : &f->a, is_b ? t->of_b[1] : t->of_a[1], off));
+    if (!dsame(rest, dboth(0)) || !spell_touching(f, steps, s, height, deep, r)) return 0;
+    if (own) keep_start(own, f, t, a, b);
     return 1;
 }
 
-/* The same, where one may be. */
+/* From the first look along a front, which tells too little. */
 static APART int go_on_flat(const flat *f, dvec way, int steps, const dlook *l, const dstart *t, const shape *a,
                             const shape *b, cache *own, const goal *g, result *r)
 {
@@ -380,17 +406,16 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
     const double height = dfirst(l.a.least) + dfirst(l.b.least);
     const enum halt at = (near - height) * s.per > f->blur ? LOST : FOREMOST;
     if (at == FOREMOST && tell_flat_sight(f, k, &s, height * s.per, along, a, b, g, r)) {
-        if (own) {
-            dfront front = *k;
-            stand_as_started(f, &front, &t);
-            pass_flat_on(own, f, &front, 0, a, b);
-        }
+        if (own) keep_start(own, f, &t, a, b);
         return 1;
     }
-    const dlook look = l;
     const dstart start = t;
-    if (at == LOST) return go_on_flat(f, k->way, k->steps, &look, &start, a, b, own, g, r);
-    return !(f->radius > 0) && touch_at_start(f, k->way, k->steps, &look, &start, a, b, own, g->deep, r);
+    if (at == FOREMOST && t.off == 0 && t.part > 0 && t.part < 1 && !(f->radius > 0)) {
+        const dsight seen = s;
+        if (touch_at_start(f, k->steps, height, &seen, &start, a, b, own, g->deep, r)) return 1;
+    }
+    const dlook look = l;
+    return go_on_flat(f, k->way, k->steps, &look, &start, a, b, own, g, r);
 }
 
 /* The corner of the difference that these make. */

@@ -72,7 +72,7 @@ static APART int tell_flat_deep(const flat *f, dfront *k, const shape *a, const 
     sight_flat(k, &s);
     if (!(upper - lower <= f->wide) || !(1 > f->blur * AWAY * s.per) || !is_square_to(f, &s)) return 0;
     if (f->radius > 0) move_flat(&s, (double)a->radius, (double)b->radius, 1, 1);
-    return spell_flat(f, k, &s, lower, upper, -s.far - f->radius, 1, r);
+    return spell_flat(f, k->steps, &s, lower, upper, -s.far - f->radius, 1, r);
 }
 
 #endif

@@ -418,7 +418,7 @@ typedef struct dsight {
 
 /* The bracket, the radii taken off; of the points b's is a's where the bodies meet. 0: in float it does not say whether
  * they do, and nothing is changed. */
-HOT int spell_flat(const flat *f, const dfront *k, const dsight *s, double lower, double upper, double value, int apart,
+HOT int spell_flat(const flat *f, int steps, const dsight *s, double lower, double upper, double value, int apart,
                    result *r)
 {
     const dvec x = dinto_range(dadd(s->a, f->a.p));
@@ -431,8 +431,8 @@ HOT int spell_flat(const flat *f, const dfront *k, const dsight *s, double lower
     dstore(r->point_a, x);
     dstore(r->point_b, apart ? dinto_range(dsub(f->a.p, s->b)) : x);
     dstore(r->normal, dnegative(dmul(s->v, s->per)));
-    r->steps = k->steps;
-    r->supports = 2 * k->steps;
+    r->steps = steps;
+    r->supports = 2 * steps;
     r->reserved = 0;
     return 1;
 }
