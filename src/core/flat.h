@@ -342,16 +342,6 @@ HOT int tell_walked_flat(const flat *f, dfront *k, enum halt at, int recalled, c
     return told;
 }
 
-/* The front from which the walk goes on, and the corner that has been seen along it, in so many steps. */
-HOT void stand_where_looked(const flat *f, dfront *k, dvec way, int steps, const dlook *l, const dstart *t)
-{
-    k->v = k->way = way;
-    k->steps = steps;
-    k->around = k->under = 0;
-    stand_as_started(f, k, t);
-    find_last(f, k, l);
-}
-
 /* Where the first front is an edge, beyond which no corner is lower, that holds the origin: that the cores touch, as
  * tell_flat_touching has it. The edge's products are exact, so that they tell where on it the origin is. */
 static APART int touch_at_start(const flat *f, int steps, double height, const dsight *s, const dstart *t,
@@ -368,13 +358,15 @@ static APART int touch_at_start(const flat *f, int steps, double height, const d
     return 1;
 }
 
-/* From the first look along a front, which tells too little. */
-static APART int go_on_flat(const flat *f, dvec way, int steps, const dlook *l, const dstart *t, const shape *a,
-                            const shape *b, cache *own, const goal *g, result *r)
+/* From the first front, which tells too little, in so many steps; v is its own. What has been seen along it is looked
+ * at again: to keep it would cost all the others more. */
+static APART int go_on_flat(const flat *f, dvec v, int steps, const dstart *t, const shape *a, const shape *b,
+                            cache *own, const goal *g, result *r)
 {
-    dfront k;
-    stand_where_looked(f, &k, way, steps, l, t);
+    dfront k = {.v = v, .steps = steps - 1};
     enum halt at = FOREMOST;
+    stand_as_started(f, &k, t);
+    ask_flat(f, &k);
     if (!is_flat_foremost(f, &k)) {
         k.around = !turn_flat(&k);
         at = k.around ? AROUND : walk_flat(f, &k, g);
@@ -402,9 +394,9 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
     start_flat(f, k, &l, &t, &s);
     const double along = measure_flat(&s, k->v), near = ddot(k->v, s.way);
     if (!(along > 0)) k->v = k->way;
-    look_flat(f, k, &l);
-    const double height = dfirst(l.a.least) + dfirst(l.b.least);
+    const double height = lowest_in_flat(f, k->v);
     const enum halt at = (near - height) * s.per > f->blur ? LOST : FOREMOST;
+    k->steps++;
     if (at == FOREMOST && tell_flat_sight(f, k, &s, height * s.per, along, a, b, g, r)) {
         if (own) keep_start(own, f, &t, a, b);
         return 1;
@@ -414,8 +406,7 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
         const dsight seen = s;
         if (touch_at_start(f, k->steps, height, &seen, &start, a, b, own, g->deep, r)) return 1;
     }
-    const dlook look = l;
-    return go_on_flat(f, k->way, k->steps, &look, &start, a, b, own, g, r);
+    return go_on_flat(f, k->v, k->steps, &start, a, b, own, g, r);
 }
 
 /* The corner of the difference that these make. */

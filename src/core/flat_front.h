@@ -298,6 +298,13 @@ HOT void look_flat(const flat *f, dfront *k, dlook *l)
     k->steps++;
 }
 
+/* How low corners of the difference lie along v. */
+HOT double lowest_in_flat(const flat *f, dvec v)
+{
+    const dvec x = dfirsts(v, v), y = dseconds(v, v);
+    return dfirst(heights_in_flat(&f->a, x, y).least) + dfirst(heights_in_flat(&f->b, x, y).least);
+}
+
 /* The corner that has been seen to be least. */
 HOT void find_last(const flat *f, dfront *k, const dlook *l)
 {
