@@ -764,6 +764,10 @@ static inline void must_scale(question *q, enum query asked, const V(result) * r
     multiply(&want.upper, 1, exponent);
     memset(&big, 0x5a, sizeof big);
     query_of[asked](&s.p.a.shape, &s.p.b.shape, &q->options, &big);
+    if (!stays_normal(&big.value, 1, -exponent) || !stays_normal(&big.lower, 1, -exponent) ||
+        !stays_normal(&big.upper, 1, -exponent)) {
+        return; /* what is 0 here is a number there */
+    }
     if (want.value != big.value || want.lower != big.lower || want.upper != big.upper || want.status != big.status ||
         memcmp(want.normal, big.normal, sizeof want.normal) != 0) {
         print_result("in another unit", &big);
