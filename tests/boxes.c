@@ -823,9 +823,32 @@ static void slack_beyond_tolerance(void **state)
     }
 }
 
+/* A box on itself, of a side that is next to nothing beside the others, under a large map: in the frame that side has
+ * few digits, and no depth is to be told by what is left of them. */
+static void side_of_few_digits(void **state)
+{
+    const real side = (real)(VARIANT_FLOAT ? 0x1.4e1b2ap-100 : 0x1.d640cf2a9bf16p-777);
+    const real broad = (real)(VARIANT_FLOAT ? 0x1.250a58p-25 : 0x1.cp-113),
+               map = (real)(VARIANT_FLOAT ? 0x1p53 : 0x1p378);
+    (void)state;
+    for (int k = 0; k < DIM; k++) {
+        V(box) box;
+        V(pose) pose = {{0}, {0}};
+        V(result) r;
+        for (int i = 0; i < DIM; i++) {
+            box.half[i] = i == k ? side : broad;
+            pose.m[(DIM + 1) * i] = map;
+        }
+        const V(shape) a = {V(support_box), &box, &pose, 0};
+        assert_true(V(penetration)(&a, &a, NULL, &r) >= 0);
+        assert_true(r.lower <= -2 * side * map && -2 * side * map <= r.upper);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(side_of_few_digits),
         cmocka_unit_test(depths_of_boxes),
         cmocka_unit_test(signs_of_boxes),
         cmocka_unit_test(apart_by_a_radius),

@@ -683,9 +683,38 @@ static void between_two_sides(void **state)
     assert_int_equal(found.count, 0);
 }
 
+/* A point 3, 4 and 12 units from a small box, of a cloud that is said to reach far more than it does. */
+static void reach_beyond_all(void **state)
+{
+    const real half = (real)0x1p-20, unit = (real)0x1.5a3p0, gap = (DIM == 2 ? 5 : 13) * unit;
+    const real away[3] = {3 * unit, 4 * unit, 12 * unit};
+    (void)state;
+    for (int e = 10; e < (VARIANT_FLOAT ? 120 : 1000); e += 2) {
+        real x[DIM], reach = 1;
+        V(box) box;
+        V(result) r;
+        for (int i = 0; i < DIM; i++) {
+            x[i] = away[i] + half;
+            box.half[i] = half;
+        }
+        for (int i = 0; i < e; i++) {
+            reach *= 2;
+        }
+        const V(points) cloud = {x, 1, 0, 0, reach};
+        const V(shape) a = {V(support_points), &cloud, NULL, 0}, b = {V(support_box), &box, NULL, 0};
+        assert_true(V(distance)(&a, &b, NULL, &r) >= 0);
+        assert_true(r.lower <= gap && gap <= r.upper);
+        assert_true(V(penetration)(&b, &a, NULL, &r) >= 0);
+        assert_true(r.lower <= gap && gap <= r.upper);
+        assert_true(V(intersect)(&a, &b, NULL, &r) >= 0);
+        assert_true(r.lower <= gap && gap <= r.upper);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reach_beyond_all),
         cmocka_unit_test(thin_bodies),
         cmocka_unit_test(with_options),
         cmocka_unit_test(in_another_unit),

@@ -101,7 +101,7 @@ static int level_height(const zonotope *z, const difference *d, const shape *a, 
         if (f->along >> k & 1 ? u != 0 : u == 0) return 0;
         whole &= !s->pose || is_whole(s->pose->m[DIM * at + k % DIM], u);
         if (u == 0) continue;
-        whole &= is_whole(half, z->e[k]);
+        whole &= is_whole(half, half * (k < DIM ? d->a.grain : d->b.grain)) && is_whole(half, z->e[k]);
         thick |= z->e[k] > 0;
         *h = span_plus(*h, span_times((span){z->e[k], 0, 0}, (span){size(u), 0, 0}), 1);
     }

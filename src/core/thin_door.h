@@ -21,6 +21,10 @@ HOT enum glanced tell_thin(difference *d, const shape *a, const shape *b, const 
     return boxed ? tell_box_outside(d, a, b, g, r) : tell_sticks_outside(d, a, b, g, r);
 }
 
+/* The square of a rounding of the whole is a normal number, so that no square that counts underflows: where a reach is
+ * said to be far more than it is, the bodies are next to nothing in the frame. */
+static inline int is_whole_of_note(real whole) { return UNIT * whole * (UNIT * whole) > REAL_MIN / UNIT; }
+
 /* In the frame, where the sizes were none to do without. */
 static APART int tell_thin_in_frame(difference *d, const shape *a, const shape *b, const goal *g, result *r)
 {
@@ -32,6 +36,7 @@ static APART int tell_thin_in_frame(difference *d, const shape *a, const shape *
     const real set_a = square_of_thin(&d->a, d->a.grain, 1 / level_a);
     const real set_b = square_of_thin(&d->b, d->b.grain, 1 / level_b);
     const real whole = root(map_a * set_a + map_b * set_b + dot(d->c, d->c)), level = of_a ? level_a : level_b;
+    if (!is_whole_of_note(whole)) return 0;
     if (g->sign_only && glance_at_thin_in_frame(d, whole, level, of_a ? uu_a : uu_b, a, b, r)) return 1;
     d->doubt = GLANCE_DOUBT * whole + (d->wild ? d->lost : 0);
     know_norms(d, root(map_a) / level_a, root(map_b) / level_b);
