@@ -215,7 +215,7 @@ typedef struct dstart {
     unsigned of_a[2], of_b[2];
     dvec gain;   /* which is the nearer of a's edge and b's, where they meet; */
     double part; /* at this share of it the nearest point is; */
-    double off;  /* so far to the left of it the origin, times its length; 0 of a corner */
+    double off;  /* so far to the left of its line the origin, times its length */
 } dstart;
 
 /* The first front, by a look: the nearer of the edges, one of each body, that meet in the lowest corner of all; which
