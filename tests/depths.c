@@ -764,6 +764,76 @@ static void apart_within_tolerance(void **state)
 }
 #endif
 
+/* How far point_a is off point_b, moved by minus the value along the normal, in u * unit. */
+static double off_along(const V(result) * r, double unit)
+{
+    quad off = 0;
+    for (int i = 0; i < DIM; i++) {
+        quad x = quad_abs((quad)r->point_a[i] - (quad)r->point_b[i] + (quad)r->value * (quad)r->normal[i]);
+        off = x > off ? x : off;
+    }
+    return in_u(off, unit);
+}
+
+/* Hulls whose reach is said to be any times what it is: bracket and points are none the worse for it but by what one
+ * of up to 1024 times, or 2^20, rounds. */
+static void said_to_reach_far(void **state)
+{
+    long deep = 0, apart = 0;
+    double worst = 0;
+    (void)state;
+    for (int k = 0; k < 5 * (int)pairs_per_family; k++) {
+        draws d = draws_from(seed, 1047, (uint64_t)k);
+        const double times = ldexp(1, below(&d, VARIANT_FLOAT ? 100 : 900));
+        const real radius = (real)(below(&d, 2) ? between(&d, 0, 0.5) : 0);
+        V(result) r;
+        draw_pair(&d, HULLS, &drawn);
+        p = &drawn;
+        if (k % 2) {
+            push_in(&d);
+        }
+        bind_pair(&drawn);
+        drawn.a.shape.radius = radius;
+        find_truth_of_pair();
+        const double unit = span();
+        drawn.a.set.points.reach *= (real)times;
+        drawn.b.set.points.reach *= (real)(below(&d, 2) ? times : 1);
+        ask_for_truth(NULL, &r);
+        deep += r.upper < 0;
+        worst = fmax(worst, off_along(&r, unit) - 4 * (double)width_of(&r) / (unit * U));
+        r.status = V(distance)(&p->a.shape, &p->b.shape, NULL, &r);
+        expect_answer("no distance", &r, r.status >= 0 && (quad)r.lower <= positive(nearly.upper));
+        if (nearly.lower > 0) {
+            apart++;
+            expect_answer("the bracket misses the truth", &r, !(missed(&r) > 0));
+            worst = fmax(worst, off_along(&r, unit) - 4 * (double)width_of(&r) / (unit * U));
+        }
+    }
+    printf("%-6s said to reach far: %ld deep, %ld apart; points off by %.1f\n", VARIANT, deep, apart, worst);
+    assert_true(deep > pairs_per_family && apart > pairs_per_family && worst <= POINT_ERROR);
+}
+
+/* A share of the depth that is asked for and can't be had, beside a body so large that both are next to nothing in its
+ * unit: it is not called met. */
+static void share_below_a_number(void **state)
+{
+    V(options) o = default_options();
+    V(result) r;
+    (void)state;
+    start_pair(BOX, BOX);
+    for (int i = 0; i < DIM; i++) {
+        drawn.a.half[i] = (real)0x1p-5;
+        drawn.b.half[i] = i == 1 ? REAL_MAX / 32 : i == 0 ? 0 : 1;
+    }
+    drawn.b.pose.m[1] = (real)0.1275;
+    bind_pair(&drawn);
+    find_truth_of_pair();
+    o.rel_tol = (real)(VARIANT_FLOAT ? 0x1p-100 : 0x1p-300);
+    ask_for_truth(&o, &r);
+    assert_true(r.upper < 0 && r.upper > r.lower);
+    assert_int_equal(r.status, GJK_FLOOR);
+}
+
 /* The least workspace, the usual one and a large one; known: as near as bodies with corners are. */
 static void expect_depth(quad truth_here, int corners_known, real radius_a, real radius_b)
 {
@@ -928,6 +998,113 @@ static void hardly_thicker_than_rounding(void **state)
     printf("%-6s hardly thicker: %ld overlap, width %.1f\n", VARIANT, deep, widest);
     assert_true(deep > 10 * pairs_per_family && widest <= WIDTH);
 }
+
+/* A box far smaller than it is far from its own origin, or far thinner than long, and beside it what is smaller still,
+ * within rounding of its corner or its side: all corners of the difference are one to rounding. */
+static void beside_next_to_nothing(void **state)
+{
+    long apart = 0;
+    (void)state;
+    for (int k = 0; k < 40 * (int)pairs_per_family; k++) {
+        V(result) r;
+        draws d = draws_from(seed, 1041, (uint64_t)k);
+        const int thin = below(&d, 2), digits = VARIANT_FLOAT ? 24 : 53;
+        const double side = ldexp(between(&d, 1, 2), -digits - 7 - below(&d, digits / 2));
+        double m[DIM * DIM];
+        start_pair(POINTS, BOX);
+        rotation(&d, 100, m);
+        drawn.a.count = 1 + below(&d, 3) * thin;
+        for (int i = 0; i < DIM; i++) {
+            const double out = thin ? 0 : i == 0 ? between(&d, 1, 2) : between(&d, 0, side);
+            drawn.b.half[i] = (real)(thin && i > 0 ? between(&d, 1, 2) : side);
+            drawn.a.v[0][i] = (real)out;
+            for (int v = 1; v < drawn.a.count; v++) {
+                drawn.a.v[v][i] = (real)ldexp(between(&d, -1, 1) * side, -50 * below(&d, 2));
+            }
+        }
+        for (int i = 0; i < DIM; i++) {
+            double from_origin = 0;
+            for (int j = 0; j < DIM; j++) {
+                drawn.b.pose.m[DIM * i + j] = (real)m[DIM * i + j];
+                if (!thin) {
+                    drawn.a.pose.m[DIM * i + j] = (real)m[DIM * i + j];
+                }
+                from_origin += m[DIM * i + j] * (double)(thin ? drawn.b.half[j] * (real)(j > 0) : drawn.a.v[0][j]);
+            }
+            drawn.b.pose.p[i] = (real)from_origin;
+        }
+        bind_pair(&drawn);
+        find_truth_of_pair();
+        ask_for_truth(NULL, &r);
+        expect_answer("the bracket is wide", &r, in_u((quad)width_of(&r), span()) <= WIDTH);
+        apart += nearly.apart;
+    }
+    printf("%-6s beside next to nothing: %ld apart\n", VARIANT, apart);
+    assert_true(apart > pairs_per_family);
+}
+
+#if DIM == 2
+/* Next to nothing of the number away, if wanted. */
+static real shaken(draws *d, double x, int so) { return (real)(x * (1 + so * 2 * U * below(d, 128))); }
+
+/* Two such that were called deep, and all like them but for roundings. */
+static void called_deep(void **state)
+{
+    static const struct {
+        int count;
+        double half[2], m[4], p[2], of_cloud[4], off, v[5][2];
+    } found[] = {{5,
+                  {0x1.5d8424p-94, 0x1.17f788p-32},
+                  {0x1.ffffeap58, 0x1.2ef53cp49, -0x1.2ef53cp49, 0x1.ffffeap58},
+                  {0x1.4b5232p17, 0x1.17f77cp27},
+                  {-0x1.6c7feep-42, -0x1.678f8ep-42, 0x1.678f8ep-42, -0x1.6c7feep-42},
+                  0x1.4eca4ep-18,
+                  {{0x1.fffff8p-17, 0x1.07edc4p-18},
+                   {0x1.b25222p-29, 0x1.07edacp-18},
+                   {0x1.fffff8p-17, 0x1.07eda4p-18},
+                   {0x1.000004p-16, 0x1.07eda4p-18},
+                   {0x1.fffffcp-17, 0x1.07edbcp-18}}},
+                 {2,
+                  {0x1.2878267ep-78, 0x1.f6a5a14p0},
+                  {0x1.fc457522fde1ap-1, 0x1.ed6e0dfd4391p-4, -0x1.ed6e0dfd4391p-4, 0x1.fc457522fde1ap-1},
+                  {-0x1.e46a87159c855p-3, -0x1.f2fc864eeeb73p0},
+                  {1, 0, 0, 1},
+                  0,
+                  {{0x1.2bf0e94p-134, 0x1.d32d2ep-136}, {-0x1.539ce7p-135, 0x1.727d86ep-133}}}};
+    const int of = !VARIANT_FLOAT;
+    (void)state;
+    for (int k = 0; k < 20 * (int)pairs_per_family; k++) {
+        V(result) r;
+        draws d = draws_from(seed, 1043, (uint64_t)k);
+        start_pair(BOX, POINTS);
+        drawn.b.count = found[of].count;
+        drawn.b.pose.p[0] = shaken(&d, found[of].off, k > 0);
+        for (int i = 0; i < 4; i++) {
+            drawn.a.pose.m[i] = (real)found[of].m[i];
+            drawn.b.pose.m[i] = shaken(&d, found[of].of_cloud[i], k > 0);
+        }
+        for (int i = 0; i < 2; i++) {
+            drawn.a.half[i] = i == 0 ? shaken(&d, found[of].half[i], k > 0) : (real)found[of].half[i];
+            drawn.a.pose.p[i] = (real)found[of].p[i];
+        }
+        for (int j = 0; j < found[of].count; j++) {
+            for (int i = 0; i < 2; i++) {
+                drawn.b.v[j][i] = shaken(&d, found[of].v[j][i], k > 0);
+            }
+        }
+        bind_pair(&drawn);
+        find_truth_of_pair();
+        for (int turned = 0; turned < 2; turned++) {
+            ask_for_truth(NULL, &r);
+            assert_true(nearly.apart && r.lower > 0);
+            const body b = drawn.a;
+            drawn.a = drawn.b;
+            drawn.b = b;
+            bind_pair(&drawn);
+        }
+    }
+}
+#endif
 
 /* Narrow triangles and segments, turned alike, against themselves: flat, and no deeper than that way rounds. */
 static void flat_on_itself(void **state)
@@ -2581,7 +2758,13 @@ int main(int argc, char **argv)
         cmocka_unit_test(all_but_concentric),
         cmocka_unit_test(with_hardly_any_room),
         cmocka_unit_test(sharing_middles),
+        cmocka_unit_test(share_below_a_number),
+        cmocka_unit_test(said_to_reach_far),
         cmocka_unit_test(hardly_thicker_than_rounding),
+        cmocka_unit_test(beside_next_to_nothing),
+#if DIM == 2
+        cmocka_unit_test(called_deep),
+#endif
         cmocka_unit_test(flat_on_itself),
 #if DIM == 3
         cmocka_unit_test(next_to_balls),

@@ -107,7 +107,7 @@ GJK_API int gjk3_distance(const gjk3_shape *a, const gjk3_shape *b, const gjk3_o
  * the depth of the overlap, and is only as tight as the proof needs:
  *   lower > 0    apart             value = lower; status GJK_DECIDED, as of the next two
  *   upper < 0    overlapping       value = upper
- *   upper == 0   they meet: proven of points, box, segment, triangle and origin, however slightly
+ *   upper == 0   they meet: proven of points, box, segment, triangle and origin, down to what is said there
  *   else         not told apart    value = 0; status GJK_FLOOR: they touch, to this precision, or to the slack;
  *                                  status GJK_LIMIT: not found out within max_steps
  * abs_tol, rel_tol and cutoff play no part. It takes no more of the stack than is said there. */
@@ -147,7 +147,7 @@ GJK_API size_t gjk3_workspace_size(uint32_t corners);
 typedef struct gjk3_points {
     const double *v;  /* the first point */
     size_t count;     /* of points */
-    uint32_t stride;  /* from point to point, in bytes, a multiple of sizeof(double); 0: packed */
+    uint32_t stride;  /* in bytes from point to point, 3 sizeof(double) or a larger multiple of it; 0: packed */
     uint32_t indexed; /* 0; 1: these are the points of a gjk3_indexed_points, with its index */
     double reach;     /* from gjk3_points_reach; 0: not known, found at the price of six more support calls */
 } gjk3_points;

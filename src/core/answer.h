@@ -107,7 +107,7 @@ HOT two_points moved_points(const result *r, vec normal, vec x, vec y, vec way, 
     real l = 0;
     vec toward_b = normal;
     if (deep < 2 && !(deep && r->upper <= 0)) {
-        l = length(way);
+        l = length_anyhow(way);
         if (r->upper <= 0 || l * down < radius * level) {
             const real share = a->radius > 0 ? a->radius / radius : 0;
             on.a = on.b = add(on.a, mul(sub(on.b, on.a), share));

@@ -103,7 +103,7 @@ static int distance_status(const result *r, const options *o, enum end end, cons
     if (o->cutoff > 0 && r->lower > o->cutoff) return GJK_DECIDED;
     if (q->told && end == STILL && !tolerant) return GJK_OK;
     real level = level_of(&q->d, radius, 0);
-    if (narrow(r, o, deep, level) || end == WITHIN) return GJK_OK;
+    if (narrow(r, o, deep) || end == WITHIN) return GJK_OK;
     if (end == OPEN) return GJK_LIMIT;
     return !tolerant && tight_enough(r, &q->d, radius, level) ? GJK_OK : GJK_FLOOR;
 }
@@ -282,12 +282,8 @@ static real off_the_ends(const result *r)
     return at_end && r->value != 0 && amid > r->lower && amid < r->upper && is_to_last_place(r) ? amid : r->value;
 }
 
-static int answer_penetration(search *q, const shape *a, const shape *b, const options *given, result *out)
+static int fathom_both(search *q, const shape *a, const shape *b, const options *o, result *r)
 {
-    options own;
-    const options *o = read_options(&own, given);
-    result r;
-    if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
     q->lent = UNTRIED;
     list_both(q, a, b, o);
     goal g = goal_of(q, a, b, o);
@@ -295,13 +291,65 @@ static int answer_penetration(search *q, const shape *a, const shape *b, const o
     g.tight = g.exact && o->tight;
 
     enum end end;
-    int bad = reply_to(q, a, b, o, &g, &end, &r);
+    int bad = reply_to(q, a, b, o, &g, &end, r);
     if (bad) return bad;
-    r.lower = larger(r.lower, -REAL_MAX); /* any slack may have been taken off */
-    r.value = smaller(larger(r.value, r.lower), r.upper);
-    if (g.tight && r.upper < 0) r.value = off_the_ends(&r);
-    r.status = distance_status(&r, o, end, q, g.radius, 1);
-    if (g.tight && r.status == GJK_OK && !narrow(&r, o, 1, 1) && !is_to_last_place(&r)) r.status = GJK_FLOOR;
+    r->lower = larger(r->lower, -REAL_MAX); /* any slack may have been taken off */
+    r->value = smaller(larger(r->value, r->lower), r->upper);
+    if (g.tight && r->upper < 0) r->value = off_the_ends(r);
+    r->status = distance_status(r, o, end, q, g.radius, 1);
+    if (g.tight && r->status == GJK_OK && !narrow(r, o, 1) && !is_to_last_place(r)) r->status = GJK_FLOOR;
+    return r->status;
+}
+
+/* A cloud whose reach is told anew. */
+typedef struct measured {
+    shape s;
+    points p;
+} measured;
+
+/* A reach may be any bound, and the bracket holds whatever it is; but the points are as good as the frame, which is
+ * made of it. Such a cloud by its own reach, where that is less than a share of what is said; its first point tells
+ * whether it can be. */
+static const shape *by_own_reach(const shape *s, measured *own)
+{
+    const points *p = s->data;
+    const real share = (real)0x1p-10;
+    if (s->support != pub(support_points) || !(peak(load(p->v)) < share * p->reach)) return s;
+    own->s = *s;
+    own->s.data = &own->p;
+    own->p = *p;
+    own->p.reach = pub(points_reach)(p);
+    own->p.indexed = 0; /* the index is made for the other */
+    return own->p.reach < share * p->reach ? &own->s : s;
+}
+
+/* How deep, once more where that is told in a frame that is far too large, if there are steps for it. */
+static APART void fathom_by_own_reaches(search *q, const shape *a, const shape *b, const options *o, result *r)
+{
+    measured of_a, of_b;
+    options left = *o;
+    const shape *x = by_own_reach(a, &of_a), *y = by_own_reach(b, &of_b);
+    result again;
+    if ((x == a && y == b) || r->steps >= (int)o->max_steps) return;
+    left.max_steps -= (uint32_t)r->steps;
+    left.cache = NULL; /* which is to know the caller's own */
+    q->thin = q->planar = q->flat = UNTRIED;
+    const int status = fathom_both(q, x, y, &left, &again);
+    if (status < 0 || status == GJK_LIMIT || again.lower > 0) return;
+    again.steps += r->steps;
+    again.supports += r->supports;
+    *r = again;
+}
+
+static int answer_penetration(search *q, const shape *a, const shape *b, const options *given, result *out)
+{
+    options own;
+    const options *o = read_options(&own, given);
+    result r;
+    if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
+    const int bad = fathom_both(q, a, b, o, &r);
+    if (bad < 0) return bad;
+    if (!(r.lower > 0)) fathom_by_own_reaches(q, a, b, o, &r);
     *out = r;
     return r.status;
 }

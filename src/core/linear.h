@@ -113,6 +113,14 @@ HOT real peak(vec a)
     return r;
 }
 
+/* Its length, also where the square is no plain number, to the same digits. */
+static inline real length_anyhow(vec a)
+{
+    const real square = dot(a, a), far = peak(a);
+    if (!unruly(square) || !(far > 0)) return root(square);
+    return length(mul(a, leveler(far))) / leveler(far);
+}
+
 static inline int same(vec a, vec b)
 {
     int r = 1;

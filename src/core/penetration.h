@@ -454,6 +454,9 @@ static inline int is_inner_for_certain(const polytope *p, const facet *f)
     return f->height * area > slop * UNIT;
 }
 
+/* The tip, sharp, as one point. Where that is near the origin, most of it may be what rounding took from w. */
+static inline vec point_of(const tip *t) { return add(t->w, t->low); }
+
 /* The angle under which the origin sees the facet from its inner side, at least: in space that is half its tangent's
  * arc, twice. area: of the normal as edges make it. */
 static real angle_above(const polytope *p, const facet *f, real area)
@@ -461,13 +464,13 @@ static real angle_above(const polytope *p, const facet *f, real area)
     vec way[DIM];
     real sine = area, cosine = DIM == 2 ? 0 : 1;
     for (int i = 0; i < DIM; i++) {
-        const vec w = p->tip[f->v[i]].w;
+        const vec w = point_of(&p->tip[f->v[i]]);
         const real far = larger(length(w), f->height);
         way[i] = mul(w, 1 / far);
         sine *= (i == 0 ? f->height : 1) / far;
     }
     for (int i = DIM == 2; i < DIM; i++) cosine += dot(way[i], way[(i + 1) % DIM]);
-    return (DIM - 1) * sine / (sine + larger(cosine, 0) + 16 * UNIT);
+    return (DIM - 1) * sine / (sine + larger(cosine, 0) + 16 * UNIT + 8 * NOISE / f->height);
 }
 
 /* The same at most, of a facet of so large a normal and so long an edge, no point of which is nearer than the floor. */
@@ -486,11 +489,11 @@ static void count_angle(depth *d, facet *f, tally *t)
     enum form form;
     if (f->rough) sharpen_facet(p, f);
     for (int i = 0; i < DIM; i++) {
-        far = larger(spread(p->tip[f->v[i]].w), far);
+        far = larger(spread(point_of(&p->tip[f->v[i]])), far);
         long_edge = larger(spread(reach_over(&p->tip[f->v[i]], &p->tip[f->v[(i + 1) % DIM]])), long_edge);
     }
     vec n = outward(p, f, &form);
-    real area = length(n), slop = 32 * UNIT * (DIM == 2 ? long_edge : long_edge * long_edge) + TINY;
+    real area = length(n), slop = 32 * UNIT * (long_edge + 8 * NOISE / UNIT) * (DIM == 2 ? 1 : long_edge) + TINY;
     if (form != THIN && area * f->height > slop * far) {
         t->certain += angle_above(p, f, area) / 2;
         return;

@@ -157,12 +157,14 @@ static int unanswered(const search *q, const result *r, const options *o, const 
     return o->tight || q->stuck || coarse(q, upper);
 }
 
-/* The bracket of the distance is as narrow as asked. One too wide for a number is not. */
-static int narrow(const result *r, const options *o, int deep, real level)
+/* The bracket of the distance is as narrow as asked. One too wide for a number is not. In the answer's own unit, so
+ * that what is asked is not lost where numbers are least. */
+static int narrow(const result *r, const options *o, int deep)
 {
-    const real far = r->upper < 0 ? -r->lower : r->upper, lower = deep ? r->lower : larger(r->lower, 0);
-    const real width = (r->upper - lower) * level;
-    return width <= REAL_MAX && width <= o->abs_tol * level + o->rel_tol * (far * level);
+    const real far = r->upper < 0 ? -r->lower : r->upper, width = r->upper - (deep ? r->lower : larger(r->lower, 0));
+    if (!(width <= REAL_MAX)) return 0;
+    const real level = leveler(larger(size(r->lower), size(r->upper)));
+    return width * level <= o->abs_tol * level + o->rel_tol * (far * level);
 }
 
 /* Finishes the search without rounding, and replaces what the result says of the distance. OPEN, FAULT: that can't be
@@ -214,8 +216,7 @@ static enum end take_further(search *q, const shape *a, const shape *b, const op
                              real weight[], result *r)
 {
     if (g->exact) return EXACT && unanswered(q, r, o, g, upper, weight) ? tighten(q, a, b, g, r, weight) : FAULT;
-    int open = g->sign_only ? r->lower <= 0 && r->upper > 0
-                            : (g->deep || r->upper > 0) && !narrow(r, o, g->deep, level_of(&q->d, g->radius, 0));
+    int open = g->sign_only ? r->lower <= 0 && r->upper > 0 : (g->deep || r->upper > 0) && !narrow(r, o, g->deep);
     return open ? ask_sister(q, a, b, o, g, r) : FAULT;
 }
 
