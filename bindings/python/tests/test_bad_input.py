@@ -88,7 +88,7 @@ def test_bad_numbers_of_corners(precision, dim, corners):
     assert wrong.value.status is gjk.Status.BAD_ARGUMENT
 
 
-@pytest.mark.parametrize("precision", ["half", None, 2, []])
+@pytest.mark.parametrize("precision", ["half", None, 2, [], np.timedelta64(1)])
 def test_bad_precision(precision):
     with pytest.raises(gjk.BadArgument, match="precision"):
         gjk.distance(gjk.Sphere(1), gjk.Sphere(1), precision=precision)

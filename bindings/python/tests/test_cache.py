@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import copy
 import gc
 import math
+import pickle
 import weakref
 from itertools import product
 
@@ -79,6 +81,17 @@ def test_what_c_goes_on_remembering_stays_alive(precision):
         gjk.distance(corners_of(1, 2, 3), corners_of(1, 1, 1).at(at(6 + i)), cache=cache, precision=precision)
     gc.collect()
     assert gone() is None, "C remembers others now"
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda cache: pickle.loads(pickle.dumps(cache))])
+def test_a_copy_starts_cold(copied):
+    cache, a, b = gjk.Cache(), gjk.Box((1, 1, 1)), gjk.Points([(5, 0, 0), (6, 1, 0), (6, 0, 1), (7, 0, 0)])
+    gjk.distance(a, b, cache=cache)
+    other = copied(cache)
+    assert (repr(cache), repr(other)) == ("<gjk.Cache warm>", "<gjk.Cache cold>")
+    assert gjk.distance(a, b, cache=other).value == 4
+    other.clear()
+    assert repr(cache) == "<gjk.Cache warm>"
 
 
 def test_a_support_may_clear_the_cache_it_is_asked_with():

@@ -109,8 +109,17 @@ def test_inside_a_sum_and_a_hull(precision):
 @precisions
 @pytest.mark.parametrize("point", [[math.nan, 0, 0], [0, math.inf, 0], [math.nan] * 3])
 def test_points_that_are_not_finite(precision, point):
-    with pytest.raises(gjk.BadSupport):
+    with pytest.raises(gjk.BadSupport, match="^support: .* is not finite"):
         gjk.distance(gjk.Support(lambda d: point), gjk.Sphere(1).at((4, 0, 0)), precision=precision)
+
+
+@precisions
+def test_points_beyond_the_reach(precision):
+    other = gjk.Sphere(1).at((4, 0, 0))
+    corners = gjk.Support(corner, reach=3**0.5)  # a rounding below it
+    assert gjk.distance(corners, other, precision=precision).value == 2
+    with pytest.raises(gjk.BadSupport, match="^support: .* farther out than the reach, 1.7"):
+        gjk.distance(gjk.Support(corner, reach=1.7), other, precision=precision)
 
 
 @pytest.mark.parametrize("point", [[1, 2], [1, 2, 3, 4], [], "123", None, [None, 1, 2]])

@@ -150,7 +150,8 @@ def test_cases_of_every_shape(pair, precision):
         ({"a": {"shape": "points", "points": 5}}, "bad argument", "points"),
         ({"a": {"shape": "torus"}}, "bad argument", "torus"),
         ({"a": {"shape": ["box"]}}, "bad argument", "box"),
-        ({"a": {"shape": "box"}}, "bad argument", "without 'half'"),
+        ({"a": {"shape": "box"}}, "bad argument", "a: box without 'half'"),
+        ({"b": {"shape": "sum", "a": BOX, "b": {}}}, "bad argument", "b: b: no such shape"),
         ({"a": [1, 2]}, "bad argument", "object"),
         ({"a": None}, "bad argument", "object"),
         ({"a": {**BOX, "pose": [1, 2]}}, "bad argument", "pose"),
@@ -195,7 +196,9 @@ def test_a_case_without_shapes():
     assert answers[2]["id"] == [1, {}]
 
 
-@pytest.mark.parametrize("bad", ["{", "[1, 2]", "7", "null", '{"a": }', "\x00", "[" * 100_000, '"' + "x" * 10])
+@pytest.mark.parametrize(
+    "bad", ["{", "[1, 2]", "7", "null", '{"a": }', '{"id": NaN}', "\x00", "[" * 100_000, '"' + "x" * 10]
+)
 def test_a_bad_line_does_not_stop_the_others(bad):
     answers, code = ask(CASE, "", bad, CASE)
     assert code == 1

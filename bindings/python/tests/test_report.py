@@ -212,25 +212,35 @@ def test_answers_are_those_of_the_library(scene):
 
 
 @pytest.mark.parametrize(
-    "change",
+    ("change", "words"),
     [
-        {"pairs": []},
-        {"pairs": [["floor", "nobody"]]},
-        {"pairs": [["floor"]]},
-        {"pairs": 7},
-        {"bodies": [{"name": "x"}]},
-        {"bodies": [{"name": "x", "shape": "unknown"}]},
-        {"dim": 7},
-        {"shapes": [1]},
+        ({"pairs": []}, "there are no pairs"),
+        ({"pairs": [["floor", "ball"], ["floor", "nobody"]]}, "pair 2: no body 'nobody'"),
+        ({"pairs": [["floor"]]}, "pair 1 is the names of two bodies, not ['floor']"),
+        ({"pairs": ["ab"]}, "pair 1 is the names of two bodies, not 'ab'"),
+        ({"pairs": [["floor", 7]]}, "pair 1 is the names of two bodies, not ['floor', 7]"),
+        ({"pairs": 7}, 'pairs is a list or "all", not 7'),
+        ({"bodies": {}}, "bodies is a list"),
+        ({"bodies": [7]}, "body 1 is an object, not 7"),
+        ({"bodies": [{"shape": "box"}]}, "body 1 without 'name'"),
+        ({"bodies": [{"name": 7, "shape": "box"}]}, "body 1: its name is 7"),
+        ({"bodies": [{"name": "x", "shape": "box"}] * 2}, "body 2: its name is 'x'"),
+        ({"bodies": [{"name": "x"}]}, "body 'x' without 'shape'"),
+        ({"bodies": [{"name": "x", "shape": "unknown"}]}, "body 'x': no shape 'unknown' in shapes"),
+        ({"bodies": [{"name": "x", "shape": {"shape": "box"}}]}, "body 'x': box without 'half'"),
+        ({"bodies": [{"name": "x", "shape": "box", "pose": [1]}]}, "body 'x': "),
+        ({"dim": 7}, "dim is 2 or 3, not 7"),
+        ({"shapes": [1]}, "shapes is an object"),
+        ({"shapes": {"odd": {"shape": "box", "half": "?"}}}, "shape 'odd': "),
     ],
 )
-def test_what_is_not_a_scene(tmp_path, change, capsys):
+def test_what_is_not_a_scene(tmp_path, change, words, capsys):
     path = tmp_path / "scene.json"
     path.write_text(json.dumps({**SCENE, **change}))
     with pytest.raises(SceneError):
         load(path)
     assert main(["report", str(path), "--out", str(tmp_path / "out")]) == 2
-    assert "scene.json" in capsys.readouterr().err
+    assert f"{path}: not a scene: {words}" in capsys.readouterr().err
 
 
 def test_a_file_that_is_no_scene(tmp_path, capsys):
@@ -317,7 +327,7 @@ def test_what_overflows_a_float_is_told_before_the_work(tmp_path, monkeypatch, c
     bodies = [{"name": "vast", "shape": {"shape": "box", "half": [1e300, 1, 1]}}, {"name": "ball", "shape": BALL}]
     path.write_text(json.dumps({**SCENE, "bodies": bodies}))
     assert main(["report", str(path), "--out", str(tmp_path / "out")]) == 2
-    assert capsys.readouterr().err == "gjk report: vast: a number out of the range of float\n"
+    assert capsys.readouterr().err == "gjk report: vast: out of the range of float: ask with --precision double\n"
 
 
 @pytest.mark.parametrize(("error", "code"), [(BrokenPipeError, 141), (OSError, 2)])

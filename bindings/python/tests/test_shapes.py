@@ -59,6 +59,21 @@ def test_pickle_equality_and_hash(shape):
     assert shape != "a shape"
 
 
+class Cube(gjk.Box):
+    """A class whose constructor takes something else."""
+
+    def __init__(self, side):
+        super().__init__((side / 2,) * 3)
+
+
+def test_pickle_of_a_class_of_ones_own():
+    cube = Cube(2).at((5, 0, 0)).rounded(0.5)
+    copied = pickle.loads(pickle.dumps(cube))
+    assert type(copied) is Cube
+    assert copied == cube
+    assert gjk.distance(copied, gjk.Sphere(1)).value == 2.5
+
+
 def test_shapes_of_different_classes_differ():
     assert gjk.Ball(1) != gjk.Disc(1)
     assert gjk.Cone(1, 2) != gjk.Cylinder(1, 2)

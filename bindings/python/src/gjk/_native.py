@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import threading
 from collections.abc import Sequence
@@ -10,7 +11,7 @@ from typing import Any, Callable, NamedTuple
 
 from ._gjk import ffi, lib
 from .coordinates import numbers
-from .errors import BadArgument, told
+from .errors import BadArgument, BadSupport, told
 
 __all__ = ["PRECISIONS", "Native", "NativeShape", "Variant", "ask_with_callbacks", "callback_handle", "variant"]
 
@@ -65,7 +66,7 @@ _VARIANTS = {(dim, precision): Variant(dim, precision) for dim in (2, 3) for pre
 def variant(dim: int, precision: str) -> Variant:
     try:
         return _VARIANTS[dim, precision]
-    except (KeyError, TypeError):
+    except (KeyError, TypeError, ValueError):
         raise BadArgument(f'precision is "double" or "float", not {told(precision)}') from None
 
 
@@ -120,7 +121,16 @@ def _answer(data: Any, direction: Any, point: Any) -> float:
     if len(x) != dim:
         raise BadArgument(f"support: {len(x)} coordinates instead of {dim}")
     point[0:dim] = x
+    _refuse(x, reach)
     return float(reach)
+
+
+def _refuse(x: tuple[float, ...], reach: float) -> None:
+    """Raise where the point is none that a set of such a reach has; reach 0: of any that is finite."""
+    if not all(map(math.isfinite, x)):
+        raise BadSupport(f"support: {told(x)} is not finite")
+    if 0 < reach * (1 + 2**-20) < math.hypot(*x):  # more than a float rounds
+        raise BadSupport(f"support: {told(x)} is farther out than the reach, {reach}")
 
 
 def _keep(kind: type[BaseException], error: BaseException, traceback: Any) -> None:

@@ -75,6 +75,14 @@ def shape_from_json(shape: Any, dim: int) -> Shape:
     return made.rounded(radius)
 
 
+def _part(whole: dict[str, Any], name: str, dim: int) -> Shape:
+    """The shape of that name, which is told where it is none."""
+    try:
+        return shape_from_json(whole[name], dim)
+    except Error as wrong:
+        raise type(wrong)(f"{name}: {wrong}") from None
+
+
 _KINDS: dict[str, Callable[[dict[str, Any], int], Shape]] = {
     "points": lambda s, dim: Points(s["points"], dim=dim),
     "box": lambda s, dim: Box(s["half"]),
@@ -87,8 +95,8 @@ _KINDS: dict[str, Callable[[dict[str, Any], int], Shape]] = {
     "cone": lambda s, dim: Cone(s["r"], s["half_length"]),
     "disc": lambda s, dim: Disc(s["r"]),
     "ellipsoid": lambda s, dim: Ellipsoid(s["radii"]),
-    "sum": lambda s, dim: Sum(shape_from_json(s["a"], dim), shape_from_json(s["b"], dim)),
-    "hull": lambda s, dim: Hull(shape_from_json(s["a"], dim), shape_from_json(s["b"], dim)),
+    "sum": lambda s, dim: Sum(_part(s, "a", dim), _part(s, "b", dim)),
+    "hull": lambda s, dim: Hull(_part(s, "a", dim), _part(s, "b", dim)),
 }
 
 
@@ -155,7 +163,7 @@ def _ask(case: dict[str, Any], asked: str) -> Result:
     dim = dimension(case.get("dim", 3))
     if "a" not in case or "b" not in case:
         raise BadArgument("a case has two shapes, a and b")
-    a, b = shape_from_json(case["a"], dim), shape_from_json(case["b"], dim)
+    a, b = _part(case, "a", dim), _part(case, "b", dim)
     given = {} if case.get("options") is None else case["options"]
     if not isinstance(given, dict):
         raise BadArgument(f"options is an object, not {told(given)}")

@@ -108,7 +108,7 @@ def answer_lines(lines: Iterable[bytes], out: TextIO, query: str | None = None) 
             continue
         try:
             case = _parse(line)
-            json.dumps([case.get("id")])  # such as it stands in the answer
+            json.dumps([case.get("id")], allow_nan=False)  # such as it stands in the answer
         except (ValueError, RecursionError) as wrong:
             answer: dict[str, Any] = {"line": number, "status": "bad line", "message": str(wrong)}
             code = 1

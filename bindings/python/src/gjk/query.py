@@ -91,6 +91,10 @@ class Cache:
     def __repr__(self) -> str:
         return f"<gjk.Cache {'warm' if self._held else 'cold'}>"
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A copy starts cold: what makes this one warm are addresses."""
+        return Cache, ()
+
     def clear(self) -> None:
         """Forget everything: the next query starts cold."""
         self._native.clear()

@@ -101,12 +101,11 @@ class Shape:
             raise BadArgument(f"radius is {more}: no shape is rounded by less than 0")
         return self._with(radius=self.radius + more)
 
+    def _fields(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in (*self._sizes, *self._more, "dim", "pose", "radius")}
+
     def _with(self: S, **changes: Any) -> S:
-        other = object.__new__(type(self))
-        for name in (*self._sizes, *self._more, "dim", "pose", "radius", "_sets"):
-            object.__setattr__(other, name, changes.get(name, getattr(self, name)))
-        object.__setattr__(other, "_natives", {})
-        return other
+        return _rebuild(type(self), {**self._fields(), "_sets": self._sets, **changes})
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"{type(self).__name__} is immutable; at() and rounded() give changed copies")
@@ -131,7 +130,7 @@ class Shape:
         return f"{type(self).__name__}({', '.join(words)})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (type(self), tuple(getattr(self, name) for name in self._sizes), self._keywords())
+        return _rebuild, (type(self), self._fields())
 
     def _keywords(self) -> dict[str, Any]:
         """The arguments by keyword that are not at their default."""
@@ -174,8 +173,12 @@ class Shape:
         return ""
 
 
-def _rebuild(kind: type[Shape], sizes: tuple[Any, ...], keywords: dict[str, Any]) -> Shape:
-    return kind(*sizes, **keywords)
+def _rebuild(kind: type[S], fields: dict[str, Any]) -> S:
+    """A shape of fields that another has, whatever the constructor of its class takes."""
+    shape = object.__new__(kind)
+    for name, value in {"_sets": {}, "_natives": {}, **fields}.items():
+        object.__setattr__(shape, name, value)
+    return shape
 
 
 def _ready(v: Variant, support: str, struct: str, fields: dict[str, Any], *keep: Any) -> Native:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..cases import dimension, posed, shape_from_json, shape_to_json
-from ..errors import Error
+from ..errors import BadArgument, Error, told
 from ..exact import round_to_float
 from ..shapes import Shape
 
@@ -46,7 +46,7 @@ class Scene:
                 try:
                     known[id(shape)] = shape_from_json(round_to_float(shape_to_json(shape)), self.dim)
                 except OverflowError:
-                    raise SceneError(f"{name}: a number out of the range of float") from None
+                    raise SceneError(f"{name}: out of the range of float: ask with --precision double") from None
             return known[id(shape)]
 
         return [Pair(p.name_a, p.name_b, single(p.name_a, p.a), single(p.name_b, p.b)) for p in self.pairs]
@@ -55,22 +55,29 @@ class Scene:
 def load(path: Path, limit: int | None = None) -> Scene:
     """Read a scene file. limit: take that many of its pairs, evenly spread over them all."""
     try:
-        scene = json.loads(path.read_bytes())
-        bodies = _bodies(scene)
-        names = scene["pairs"]
-        couples = list(itertools.combinations(bodies, 2)) if names == "all" else [(a, b) for a, b in names]
-        chosen = _spread(couples, limit)
-        pairs = [Pair(a, b, bodies[a], bodies[b]) for a, b in chosen]
-    except KeyError as missing:
-        raise SceneError(f"{path}: no {missing}") from None
+        return _scene(json.loads(path.read_bytes()), path.stem, limit)
     except RecursionError:
         raise SceneError(f"{path}: not a scene: nested too deep") from None
-    except (Error, ValueError, TypeError, AttributeError) as wrong:
+    except ValueError as wrong:
         raise SceneError(f"{path}: not a scene: {wrong}") from None
+
+
+def _scene(scene: Any, stem: str, limit: int | None) -> Scene:
+    dim = dimension(_field(scene, "dim", "a scene"))
+    bodies = _bodies(scene, dim)
+    couples = _couples(_field(scene, "pairs", "a scene"), bodies)
+    pairs = [Pair(a, b, bodies[a], bodies[b]) for a, b in _spread(couples, limit)]
     if not pairs:
-        raise SceneError(f"{path}: a scene without pairs")
-    name, source = scene.get("name", path.stem), scene.get("source", "")
-    return Scene(_text(name), scene["dim"], pairs, len(couples), _text(source))
+        raise BadArgument("there are no pairs")
+    return Scene(_text(scene.get("name", stem)), dim, pairs, len(couples), _text(scene.get("source", "")))
+
+
+def _field(whole: Any, name: str, what: str) -> Any:
+    if not isinstance(whole, dict):
+        raise BadArgument(f"{what} is an object, not {told(whole)}")
+    if name not in whole:
+        raise BadArgument(f"{what} without {name!r}")
+    return whole[name]
 
 
 def _text(words: Any) -> str:
@@ -78,15 +85,54 @@ def _text(words: Any) -> str:
     return str(words).encode("utf-8", "replace").decode("utf-8")
 
 
-def _bodies(scene: dict[str, Any]) -> dict[str, Shape]:
-    dim, shapes = dimension(scene["dim"]), scene.get("shapes", {})
-    ready = {name: shape_from_json(shape, dim) for name, shape in shapes.items()}
-    bodies = {}
-    for body in scene["bodies"]:
-        shape = body["shape"]
-        made = ready[shape] if isinstance(shape, str) else shape_from_json(shape, dim)
-        bodies[body["name"]] = posed(made, body.get("pose"))
+def _shape(shape: Any, dim: int, what: str) -> Shape:
+    try:
+        return shape_from_json(shape, dim)
+    except Error as wrong:
+        raise BadArgument(f"{what}: {wrong}") from None
+
+
+def _bodies(scene: dict[str, Any], dim: int) -> dict[str, Shape]:
+    """The bodies by their names, each of which is of one body alone."""
+    shapes, listed = scene.get("shapes", {}), _field(scene, "bodies", "a scene")
+    if not isinstance(shapes, dict):
+        raise BadArgument(f"shapes is an object, not {told(shapes)}")
+    if not isinstance(listed, list):
+        raise BadArgument(f"bodies is a list, not {told(listed)}")
+    ready = {name: _shape(shape, dim, f"shape {name!r}") for name, shape in shapes.items()}
+    bodies: dict[str, Shape] = {}
+    for number, body in enumerate(listed, 1):
+        name = _field(body, "name", f"body {number}")
+        if not isinstance(name, str) or name in bodies:
+            raise BadArgument(f"body {number}: its name is {told(name)}, which is no text or that of another body")
+        bodies[name] = _body(body, dim, ready, f"body {told(name)}")
     return bodies
+
+
+def _body(body: dict[str, Any], dim: int, ready: dict[str, Shape], what: str) -> Shape:
+    shape = _field(body, "shape", what)
+    if isinstance(shape, str) and shape not in ready:
+        raise BadArgument(f"{what}: no shape {told(shape)} in shapes")
+    made = ready[shape] if isinstance(shape, str) else _shape(shape, dim, what)
+    try:
+        return posed(made, body.get("pose"))
+    except Error as wrong:
+        raise BadArgument(f"{what}: {wrong}") from None
+
+
+def _couples(pairs: Any, bodies: dict[str, Shape]) -> list[tuple[str, str]]:
+    """The names of the two bodies of each pair."""
+    if pairs == "all":
+        return list(itertools.combinations(bodies, 2))
+    if not isinstance(pairs, list):
+        raise BadArgument(f'pairs is a list or "all", not {told(pairs)}')
+    for number, pair in enumerate(pairs, 1):
+        if not (isinstance(pair, list) and len(pair) == 2 and all(isinstance(name, str) for name in pair)):
+            raise BadArgument(f"pair {number} is the names of two bodies, not {told(pair)}")
+        unknown = [name for name in pair if name not in bodies]
+        if unknown:
+            raise BadArgument(f"pair {number}: no body {told(unknown[0])}")
+    return [(a, b) for a, b in pairs]
 
 
 def _spread(items: list[Any], limit: int | None) -> list[Any]:
