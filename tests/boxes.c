@@ -845,10 +845,34 @@ static void side_of_few_digits(void **state)
     }
 }
 
+/* The same where the map makes the side smaller, and how deep they are is between two numbers. */
+static void depth_between_numbers(void **state)
+{
+    const real side = (real)(VARIANT_FLOAT ? 0x1.5b6342p-100 : 0x1.5b6341063bdc8p-753);
+    const real broad = (real)(VARIANT_FLOAT ? 0x1p20 : 0x1.64p87), map = (real)(VARIANT_FLOAT ? 0x1p-40 : 0x1p-306);
+    (void)state;
+    for (int k = 0; k < DIM; k++) {
+        V(box) box;
+        V(pose) pose = {{0}, {0}};
+        for (int i = 0; i < DIM; i++) {
+            box.half[i] = i == k ? side : broad;
+            pose.m[(DIM + 1) * i] = map;
+        }
+        for (int n = 0; n < 12; n++, box.half[k] /= 2) {
+            const quad truth_here = -2 * (quad)box.half[k] * (quad)map;
+            const V(shape) a = {V(support_box), &box, &pose, 0};
+            V(result) r;
+            assert_true(V(penetration)(&a, &a, NULL, &r) >= 0);
+            assert_true((quad)r.lower <= truth_here && truth_here <= (quad)r.upper);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(side_of_few_digits),
+        cmocka_unit_test(depth_between_numbers),
         cmocka_unit_test(depths_of_boxes),
         cmocka_unit_test(signs_of_boxes),
         cmocka_unit_test(apart_by_a_radius),

@@ -41,6 +41,9 @@ static real rescaled(real bound, real unscale, real way_out)
     return size(r) < REAL_MIN ? r + way_out * 2 * TINY : r;
 }
 
+/* A bound from below that came out of the frame; or the number below it, if it was rounded up there, of subnormals. */
+static inline real no_more_than(real bound, real scale, real out) { return out * scale > bound ? out - TINY : out; }
+
 /* The bracket in the caller's units, the radii taken off, each bound rounded its own way. */
 static void bracket(result *r, const difference *d, real lower, real upper, const shape *a, const shape *b)
 {
@@ -48,8 +51,8 @@ static void bracket(result *r, const difference *d, real lower, real upper, cons
     const int sharp = !(radius > 0);
     if (!d->wild && (sharp || !unruly(radius))) {
         const real near = lower * d->unscale, far = upper * d->unscale;
-        r->lower = sharp ? near : below_sum(near, -a->radius, -b->radius);
-        r->upper = sharp ? far : -below_sum(-far, a->radius, b->radius);
+        r->lower = sharp ? no_more_than(lower, d->scale, near) : below_sum(near, -a->radius, -b->radius);
+        r->upper = -(sharp ? no_more_than(-upper, d->scale, -far) : below_sum(-far, a->radius, b->radius));
         return;
     }
     real level = level_of(d, radius, 0), down = level * d->unscale, up = 1 / level;
