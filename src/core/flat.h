@@ -358,20 +358,21 @@ static APART int touch_at_start(const flat *f, int steps, double height, const d
     return 1;
 }
 
-/* From the first front, which tells too little, in so many steps; v is its own. What has been seen along it is looked
- * at again: to keep it would cost all the others more. */
+/* How far apart, or how deep, from the first front, which tells too little, in so many steps; v is its own. What has
+ * been seen along it is looked at again: to keep it would cost all the others more. */
 static APART int go_on_flat(const flat *f, dvec v, int steps, const dstart *t, const shape *a, const shape *b,
-                            cache *own, const goal *g, result *r)
+                            cache *own, int deep, int max_steps, result *r)
 {
+    const goal g = {.deep = deep, .max_steps = max_steps};
     dfront k = {.v = v, .steps = steps - 1};
     enum halt at = FOREMOST;
     stand_as_started(f, &k, t);
     ask_flat(f, &k);
     if (!is_flat_foremost(f, &k)) {
         k.around = !turn_flat(&k);
-        at = k.around ? AROUND : walk_flat(f, &k, g);
+        at = k.around ? AROUND : walk_flat(f, &k, &g);
     }
-    return tell_walked_flat(f, &k, at, 0, a, b, own, g, r);
+    return tell_walked_flat(f, &k, at, 0, a, b, own, &g, r);
 }
 
 /* The front's length and direction, from the nearest point. */
@@ -406,7 +407,7 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
         const dsight seen = s;
         if (touch_at_start(f, k->steps, height, &seen, &start, a, b, own, g->deep, r)) return 1;
     }
-    return go_on_flat(f, k->v, k->steps, &start, a, b, own, g, r);
+    return go_on_flat(f, k->v, k->steps, &start, a, b, own, g->deep, g->max_steps, r);
 }
 
 /* The corner of the difference that these make. */

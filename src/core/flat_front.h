@@ -63,10 +63,10 @@ HOT int list_flat(const shape *k, flat_body *s)
         if (!p || !p->v) return 0;
         s->v = p->v;
         s->count = p->count;
-        s->step = stride_of(p);
+        if (p->stride) s->step = p->stride / sizeof(real);
         s->reach = (double)p->reach;
         s->limit = smaller(p->reach * (1 + 16 * UNIT), REAL_MAX);
-        return p->count - 1 <= PLACES - 1 && s->step >= DIM && p->stride % sizeof(real) == 0 && p->reach > TINY;
+        return p->count - 1 <= PLACES - 1 && !(p->stride && !is_stride(p)) && p->reach > TINY;
     }
     s->limit = REAL_MAX;
     if (k->support == pub(support_segment)) {

@@ -225,7 +225,7 @@ HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o
     if (HAS_SISTER) {
         q->flat = IN_VAIN;
         if (!tell_flat(a, b, o ? o->cache : NULL, &g, r)) return 0;
-        say_plainly(r, sign_only, deep);
+        if (sign_only || !(r->lower > 0)) say_plainly(r, sign_only, deep); /* else all is said */
         return 1;
     }
     q->planar = UNCLEAR;

@@ -83,11 +83,10 @@ static vec along(vec dir, real l)
 
 static size_t stride_of(const points *p) { return p->stride ? p->stride / sizeof(real) : DIM; }
 
-static int cloud(const points *p)
-{
-    return p->v && p->count > 0 && p->stride % sizeof(real) == 0 &&
-           (p->stride == 0 || p->stride >= DIM * sizeof(real)) && p->reach >= 0;
-}
+/* Of points that are not packed: one is in it. */
+HOT int is_stride(const points *p) { return p->stride % sizeof(real) == 0 && p->stride >= DIM * sizeof(real); }
+
+static int cloud(const points *p) { return p->v && p->count > 0 && (p->stride == 0 || is_stride(p)) && p->reach >= 0; }
 
 GJK_API real pub(points_reach)(const points *p)
 {
