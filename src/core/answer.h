@@ -116,7 +116,7 @@ HOT two_points moved_points(const result *r, vec normal, vec x, vec y, vec way, 
             on.a = on.b = add(on.a, mul(sub(on.b, on.a), share));
             return on;
         }
-        if (l > 0) toward_b = unruly(l) ? opposite_unit(way) : mul(way, -1 / l);
+        if (l > 0) toward_b = unruly(l) ? along(way, -1) : mul(way, -1 / l);
     }
     on.a = add(on.a, mul(toward_b, a->radius * level));
     on.b = sub(on.b, mul(toward_b, b->radius * level));

@@ -282,6 +282,7 @@ static real off_the_ends(const result *r)
     return at_end && r->value != 0 && amid > r->lower && amid < r->upper && is_to_last_place(r) ? amid : r->value;
 }
 
+/* The whole answer of bodies as they are said to be, into r. Returns its status; a mistake leaves r alone. */
 static int fathom_both(search *q, const shape *a, const shape *b, const options *o, result *r)
 {
     q->lent = UNTRIED;

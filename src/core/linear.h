@@ -136,13 +136,6 @@ static inline vec unit_size(vec d)
     return far < REAL_MIN ? mul(d, leveler(peak(d))) : d;
 }
 
-/* Minus d, of any size but 0, at length 1. */
-static inline vec opposite_unit(vec d)
-{
-    d = unit_size(d);
-    return mul(d, -1 / length(d));
-}
-
 /* d brought to size 1/16 .. 1/8: no sum of products of a point with it overflows. The first axis for none. */
 static inline vec levelled(vec d) { return peak(d) > 0 ? mul(unit_size(d), (real)0.0625) : axis(0, 1); }
 
