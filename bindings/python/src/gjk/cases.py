@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, Callable
 
-from .errors import BadArgument, Error, Status, told
+from .errors import BadArgument, Error, Status, about, told
 from .query import Result, distance, intersect, penetration
 from .shapes import (
     Ball,
@@ -76,11 +76,8 @@ def shape_from_json(shape: Any, dim: int) -> Shape:
 
 
 def _part(whole: dict[str, Any], name: str, dim: int) -> Shape:
-    """The shape of that name, which is told where it is none."""
-    try:
+    with about(name):
         return shape_from_json(whole[name], dim)
-    except Error as wrong:
-        raise type(wrong)(f"{name}: {wrong}") from None
 
 
 _KINDS: dict[str, Callable[[dict[str, Any], int], Shape]] = {

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import IntEnum
 from typing import Any
 
 from ._gjk import ffi, lib
 
-__all__ = ["BadArgument", "BadSupport", "Error", "Status", "told"]
+__all__ = ["BadArgument", "BadSupport", "Error", "Status", "about", "told"]
 
 
 class Status(IntEnum):
@@ -60,6 +62,15 @@ def told(x: Any) -> str:
     except Exception:  # an integer of too many digits, lists nested too deep, or what a class of the caller's raises
         return f"some {type(x).__name__}"
     return words if len(words) <= 200 else f"{words[:200]}..."
+
+
+@contextmanager
+def about(what: str) -> Iterator[None]:
+    """What is wrong in here is told of that."""
+    try:
+        yield
+    except Error as wrong:
+        raise type(wrong)(f"{what}: {wrong}") from None
 
 
 def error(status: int, message: str) -> Error:

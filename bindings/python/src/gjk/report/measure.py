@@ -8,7 +8,7 @@ from typing import Any, Callable, NamedTuple
 from .._gjk import ffi
 from .._native import Variant, variant
 from ..cases import QUERIES
-from ..errors import Error
+from ..errors import about
 from ..query import distance
 from .scene import Pair
 
@@ -77,10 +77,8 @@ def solve(pairs: list[Pair], dim: int, precision: str, step: Callable[[int, int]
 def check(pairs: list[Pair], precision: str) -> None:
     """Raise where a pair is bad input. `solve` is for good ones: its stop watch does not look at statuses."""
     for pair in pairs:
-        try:
+        with about(f"{pair.name_a} and {pair.name_b}"):
             distance(pair.a, pair.b, precision=precision, max_steps=1)
-        except Error as wrong:
-            raise type(wrong)(f"{pair.name_a} and {pair.name_b}: {wrong}") from None
 
 
 class _Watch:

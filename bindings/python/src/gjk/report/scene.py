@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..cases import dimension, posed, shape_from_json, shape_to_json
-from ..errors import BadArgument, Error, told
+from ..errors import BadArgument, about, told
 from ..exact import round_to_float
 from ..shapes import Shape
 
@@ -85,13 +85,6 @@ def _text(words: Any) -> str:
     return str(words).encode("utf-8", "replace").decode("utf-8")
 
 
-def _shape(shape: Any, dim: int, what: str) -> Shape:
-    try:
-        return shape_from_json(shape, dim)
-    except Error as wrong:
-        raise BadArgument(f"{what}: {wrong}") from None
-
-
 def _bodies(scene: dict[str, Any], dim: int) -> dict[str, Shape]:
     """The bodies by their names, each of which is of one body alone."""
     shapes, listed = scene.get("shapes", {}), _field(scene, "bodies", "a scene")
@@ -99,7 +92,7 @@ def _bodies(scene: dict[str, Any], dim: int) -> dict[str, Shape]:
         raise BadArgument(f"shapes is an object, not {told(shapes)}")
     if not isinstance(listed, list):
         raise BadArgument(f"bodies is a list, not {told(listed)}")
-    ready = {name: _shape(shape, dim, f"shape {name!r}") for name, shape in shapes.items()}
+    ready = {name: _named(name, shape, dim) for name, shape in shapes.items()}
     bodies: dict[str, Shape] = {}
     for number, body in enumerate(listed, 1):
         name = _field(body, "name", f"body {number}")
@@ -109,15 +102,18 @@ def _bodies(scene: dict[str, Any], dim: int) -> dict[str, Shape]:
     return bodies
 
 
+def _named(name: str, shape: Any, dim: int) -> Shape:
+    with about(f"shape {told(name)}"):
+        return shape_from_json(shape, dim)
+
+
 def _body(body: dict[str, Any], dim: int, ready: dict[str, Shape], what: str) -> Shape:
     shape = _field(body, "shape", what)
-    if isinstance(shape, str) and shape not in ready:
-        raise BadArgument(f"{what}: no shape {told(shape)} in shapes")
-    made = ready[shape] if isinstance(shape, str) else _shape(shape, dim, what)
-    try:
+    with about(what):
+        if isinstance(shape, str) and shape not in ready:
+            raise BadArgument(f"no shape {told(shape)} in shapes")
+        made = ready[shape] if isinstance(shape, str) else shape_from_json(shape, dim)
         return posed(made, body.get("pose"))
-    except Error as wrong:
-        raise BadArgument(f"{what}: {wrong}") from None
 
 
 def _couples(pairs: Any, bodies: dict[str, Shape]) -> list[tuple[str, str]]:
