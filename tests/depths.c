@@ -798,7 +798,14 @@ static void said_to_reach_far(void **state)
         const double unit = span();
         drawn.a.set.points.reach *= (real)times;
         drawn.b.set.points.reach *= (real)(below(&d, 2) ? times : 1);
-        ask_for_truth(NULL, &r);
+        V(cache) cache;
+        V(options) o = default_options();
+        memset(&cache, 0, sizeof cache);
+        o.cache = &cache;
+        ask_for_truth(&o, &r);
+        for (int i = 0; i < 2 && cache.count > 0; i++) { /* of what it holds it is to know the caller's own */
+            assert_ptr_equal(cache.data[i], i == 0 ? p->a.shape.data : p->b.shape.data);
+        }
         deep += r.upper < 0;
         worst = fmax(worst, off_along(&r, unit) - 4 * (double)width_of(&r) / (unit * U));
         r.status = V(distance)(&p->a.shape, &p->b.shape, NULL, &r);
