@@ -610,8 +610,28 @@ static int seam_back(seam r) { return DIM == 2 ? 1 - r.v[1] : 2; }
 /* Whether the facet put on r has the one put on the other next to it, along the seam there. */
 static int comes_before(seam r, seam other) { return DIM == 2 ? r.v[1] == 0 && other.v[1] == 1 : other.v[0] == r.v[1]; }
 
-/* Joins the facets that were put on the rim: the rim goes around, once or more often, so each has one before it and one
- * after it, which as a rule comes next. Where tips are passed more often than once any pairing will do. */
+/* Each seam of the rim ends where the next one starts, all around. */
+static inline int is_ring(const polytope *p)
+{
+    int r = DIM == 3;
+    for (int k = 0; k < p->rims && r; k++) r = comes_before(p->rim[k], p->rim[k + 1 < p->rims ? k + 1 : 0]);
+    return r;
+}
+
+/* Joins the facets that were put on a ring, each to the one before it and the one after it. */
+static inline void join_ring(polytope *p)
+{
+    int16_t before = p->rim[p->rims - 1].of;
+    for (int k = 0; k < p->rims; k++) {
+        facet *f = &p->facet[p->rim[k].of];
+        f->next[1] = p->rim[k + 1 < p->rims ? k + 1 : 0].of;
+        f->next[DIM - 1] = before;
+        before = p->rim[k].of;
+    }
+}
+
+/* Joins the facets that were put on the rim: it goes around, once or more often, so each has one before it and one
+ * after it. Where tips are passed more often than once any pairing will do. */
 static void join_all(polytope *p)
 {
     const int rims = p->rims;
@@ -654,7 +674,8 @@ static void settle_in(polytope *p, int before, int outs)
         p->rim[k].of = (int16_t)at;
     }
     p->facets = end;
-    join_all(p);
+    if (is_ring(p)) join_ring(p);
+    else join_all(p);
     if (outs > 0) sweep(p); /* no seam of those was on the rim */
 }
 
@@ -768,30 +789,46 @@ static void forget_tips(polytope *p)
         for (int i = 0; i < DIM; i++) p->facet[k].v[i] = place[p->facet[k].v[i]].v[0];
 }
 
-/* The next facet of the first DIM + 1 tips' surface. turn: whether they turn counterclockwise. */
-static void put_side(polytope *p, int turn)
+/* Whether the first DIM + 1 tips turn counterclockwise, as they are rounded. */
+static int turn_roughly(const polytope *p)
+{
+    const vec a = way_to(&p->tip[0], &p->tip[1]), b = way_to(&p->tip[0], &p->tip[2]);
+#if DIM == 2
+    return !(a.c[0] * b.c[1] - a.c[1] * b.c[0] < 0);
+#else
+    return !(dot(cross(a, b), way_to(&p->tip[0], &p->tip[3])) < 0);
+#endif
+}
+
+/* Puts their surface, outward if they turn so: its facets, and those across their seams. */
+static void put_sides(polytope *p, int turn)
 {
 #if DIM == 2
-    static const int16_t side[3][2] = {{0, 1}, {1, 2}, {2, 0}}, across[3][2] = {{2, 1}, {0, 2}, {1, 0}};
+    static const int16_t side[2][3][2] = {{{1, 0}, {2, 1}, {0, 2}}, {{0, 1}, {1, 2}, {2, 0}}};
+    static const int16_t across[2][3][2] = {{{1, 2}, {2, 0}, {0, 1}}, {{2, 1}, {0, 2}, {1, 0}}};
+    p->facets = 0;
+    for (int k = 0; k < 3; k++) put_facet(p, side[turn][k]);
 #else
-    static const int16_t side[4][3] = {{2, 1, 0}, {1, 3, 0}, {3, 2, 0}, {2, 3, 1}};
-    static const int16_t across[4][3] = {{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {2, 1, 0}};
+    static const int16_t side[2][4][3] = {{{1, 2, 0}, {3, 1, 0}, {3, 0, 2}, {1, 3, 2}},
+                                          {{2, 1, 0}, {1, 3, 0}, {0, 3, 2}, {3, 1, 2}}};
+    static const int16_t across[2][4][3] = {{{3, 2, 1}, {3, 0, 2}, {1, 0, 3}, {1, 2, 0}},
+                                            {{3, 1, 2}, {3, 2, 0}, {1, 3, 0}, {1, 0, 2}}};
+    p->facets = 0;
+    for (int k = 0; k < 4; k += 2) {
+        const int16_t *v = side[turn][k], *u = side[turn][k + 1];
+        const seam two[2] = {{{v[0], v[1]}, 0, 0}, {{u[0], u[1]}, 0, 0}};
+        put_two_on(p, two, v[2]);
+    }
 #endif
-    int16_t v[DIM];
-    int k = p->facets;
-    for (int i = 0; i < DIM; i++) v[i] = side[k][turn || i > 1 ? i : 1 - i];
-    put_facet(p, v);
-    for (int i = 0; i < DIM; i++) /* turned over, the seams are passed the other way around */
-        p->facet[k].next[i] = across[k][turn ? i : DIM == 2 ? 1 - i : (DIM - i) % DIM];
+    for (int k = 0; k <= DIM; k++) EACH(p->facet[k].next[i] = across[turn][k][i]);
 }
 
 /* That surface, turned so that the last of the tips is not beyond the first facet. */
 static void put_first(polytope *p)
 {
-    put_side(p, 1);
-    int turn = !(side_of(p, &p->facet[0], &p->tip[DIM]) > 0);
-    p->facets = turn;
-    while (p->facets <= DIM) put_side(p, turn);
+    const int turn = turn_roughly(p);
+    put_sides(p, turn);
+    if (side_of(p, &p->facet[0], &p->tip[DIM]) > 0) put_sides(p, !turn);
 }
 
 #endif
