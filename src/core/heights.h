@@ -14,6 +14,9 @@ typedef struct outlook {
     duo_halves h[DIM]; /* and the halves of high */
     twin apart;        /* the height of -c along n */
     real excess;       /* of |n| above 1 */
+    int known;         /* of so many points of each body it is known how high they stand: */
+    vec x[DIM], y[DIM];
+    duo_twin stand[DIM]; /* as heights_of has it */
 } outlook;
 
 /* Looks along a unit n: what its heights are made of. */
@@ -21,14 +24,12 @@ static void look_along(outlook *s, const difference *d, vec n)
 {
     const duos both = duos_of(n, mul(n, -1));
     duo_halves h[DIM];
-    twin square = {-1, 0}, apart = {0, 0};
+    duo_twin own = {duo_of(-1, 0), duo_both(0)}; /* |n|^2 - 1, and the height of -c */
     if (same(n, s->n)) return;
     for (int i = 0; i < DIM; i++) {
+        const duo with = duo_of(n.c[i], d->c.c[i]);
         h[i] = duo_halves_of(both.c[i]);
-        const halves own = {of_a(h[i].upper), of_a(h[i].lower)}, back = {of_b(h[i].upper), of_b(h[i].lower)};
-        gather(&square, product_of_halves(n.c[i], own, n.c[i], own));
-        gather(&apart, product_of_halves(-n.c[i], back, d->c.c[i], halves_of(d->c.c[i])));
-        apart.low -= n.c[i] * d->c_low.c[i];
+        duo_gather(&own, duo_product_of_halves(both.c[i], h[i], with, duo_halves_of(with)));
     }
     for (int j = 0; j < DIM; j++) {
         duo_twin t = duo_product_of_halves(d->maps.c[j], duo_halves_of(d->maps.c[j]), both.c[0], h[0]);
@@ -41,8 +42,9 @@ static void look_along(outlook *s, const difference *d, vec n)
         s->h[j] = duo_halves_of(t.high);
     }
     s->n = n;
-    s->apart = apart;
-    s->excess = (square.high + square.low) / 2;
+    s->known = 0;
+    s->apart = (twin){of_b(own.high), of_b(own.low) - dot(n, d->c_low)};
+    s->excess = (of_a(own.high) + of_a(own.low)) / 2;
 }
 
 /* How high a point of each stands, times their grain, from the bodies' own origins. */
@@ -58,14 +60,34 @@ HOT duo_twin heights_of(const outlook *s, duos x)
     return duo_sum_of(h.high, h.low);
 }
 
+HOT duo_twin both_heights(const outlook *s, const difference *d, vec x, vec y)
+{
+    return heights_of(s, duos_mul(duos_of(x, y), d->grains));
+}
+
+/* How high A - B's point stands whose parts stand so high. */
+HOT twin height_of_both(const outlook *s, twin a, twin b)
+{
+    gather(&a, b);
+    gather(&a, s->apart);
+    return sum_of(a.high, a.low - a.high * s->excess);
+}
+
 /* The height of A - B's point x - y. */
 HOT twin height_at(const outlook *s, const difference *d, vec x, vec y)
 {
-    const duo_twin both = heights_of(s, duos_mul(duos_of(x, y), d->grains));
-    twin h = {of_a(both.high), of_a(both.low)};
-    gather(&h, (twin){of_b(both.high), of_b(both.low)});
-    gather(&h, s->apart);
-    return sum_of(h.high, h.low - h.high * s->excess);
+    const duo_twin both = both_heights(s, d, x, y);
+    return height_of_both(s, (twin){of_a(both.high), of_a(both.low)}, (twin){of_b(both.high), of_b(both.low)});
+}
+
+/* The same, of one more point that is to be known. */
+HOT twin height_noted(outlook *s, const difference *d, vec x, vec y)
+{
+    const duo_twin both = both_heights(s, d, x, y);
+    s->x[s->known] = x;
+    s->y[s->known] = y;
+    s->stand[s->known++] = both;
+    return height_of_both(s, (twin){of_a(both.high), of_a(both.low)}, (twin){of_b(both.high), of_b(both.low)});
 }
 
 /* ---- the farthest corner ---- */
@@ -89,6 +111,16 @@ typedef struct held {
 
 static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.high == k.high && h.low < k.low); }
 
+/* How high the body's point stands. */
+HOT twin own_height(const outlook *o, real (*own)(duo), real grain, vec x)
+{
+    const vec *points = own == of_a ? o->x : o->y;
+    int k = 0;
+    while (k < o->known && !(points[k].c[0] == x.c[0] && same(points[k], x))) k++;
+    const duo_twin both = k < o->known ? o->stand[k] : heights_of(o, duos_both(mul(x, grain)));
+    return (twin){own(both.high), own(both.low)};
+}
+
 /* Which of these is the highest in truth, the first of equals; those that are about lower than least are not. It is the
  * only one that is held then. own: of_a or of_b, by whose body they are. */
 static void settle_held(held *s, const outlook *o, real (*own)(duo), real grain, real least)
@@ -102,8 +134,7 @@ static void settle_held(held *s, const outlook *o, real (*own)(duo), real grain,
     }
     s->n = 1;
     for (int k = 0; k < left && left > 1; k++) {
-        const duo_twin both = heights_of(o, duos_both(mul(load(s->at[k]), grain)));
-        const twin h = {own(both.high), own(both.low)};
+        const twin h = own_height(o, own, grain, load(s->at[k]));
         if (!is_lower_twin(most, h)) continue;
         most = h;
         s->at[0] = s->at[k];

@@ -48,7 +48,8 @@ typedef struct depth {
     vec least_way;    /*   of known corners also the way along which, and the corner there */
     vec least_at;
     int closings;       /* so often the lowest facet has been as good as rounding can prove */
-    outlook sight;      /* and what is looked along */
+    outlook sight;      /* and what is looked along, */
+    twin floor_there;   /*   and of the points that are known to it the lowest height */
     real near;          /* the value is in the middle between there and the bound from below */
     int rested;         /* a walk down came to where heights are the least nearby; */
     int narrowed;       /*   none did, and facets were dropped that may be as low as any */
@@ -96,13 +97,38 @@ static twin fine_height(depth *d, vec n, const tip *near, vertex *c)
     look_along(&d->sight, f, n);
     c->x = farthest_corner(&d->sight, &f->a, d->a, of_a, near ? &near->x : NULL);
     c->y = farthest_corner(&d->sight, &f->b, d->b, of_b, near ? &near->y : NULL);
-    return height_at(&d->sight, f, c->x, c->y);
+    return height_of_both(&d->sight, own_height(&d->sight, of_a, f->a.grain, c->x),
+                          own_height(&d->sight, of_b, f->b.grain, c->y));
+}
+
+/* Looks along the facet's normal, at its corners first. */
+static void look_at_facet(depth *d, const facet *f)
+{
+    twin least = {REAL_MAX, 0};
+    look_along(&d->sight, &d->q->d, f->n);
+    d->sight.known = 0;
+    for (int k = 0; k < DIM; k++) {
+        const tip *t = &d->p.tip[f->v[k]];
+        const twin h = height_noted(&d->sight, &d->q->d, t->x, t->y);
+        if (is_lower_twin(h, least)) least = h;
+    }
+    d->floor_there = least;
+}
+
+/* Whether it is known how high the facet's corners stand along the way that is looked along. */
+static int is_looked_at(const depth *d, const facet *f)
+{
+    int r = d->sight.known == DIM;
+    for (int k = 0; k < d->sight.known; k++)
+        r &= same(d->sight.x[k], d->p.tip[f->v[k]].x) && same(d->sight.y[k], d->p.tip[f->v[k]].y);
+    return r;
 }
 
 /* The least height of the facet's corners, along its normal, which is looked along. */
 static twin floor_seen(const depth *d, const facet *f)
 {
     twin least = {REAL_MAX, 0};
+    if (is_looked_at(d, f)) return d->floor_there;
     for (int k = 0; k < DIM; k++) {
         const tip *t = &d->p.tip[f->v[k]];
         const twin h = height_at(&d->sight, &d->q->d, t->x, t->y);
@@ -637,6 +663,7 @@ static int is_beyond(depth *d, facet *f, tip *t)
     if (fresh && sees(&d->p, f, t) && !is_known(&d->p, t)) return 1;
     if (!d->g->exact) return 0;
     if (f->rough == ROUGH) polish_facet(d, f);
+    look_at_facet(d, f);
     fine_bound(d, f->n, t, &c);
     for (int i = 0; i < DIM; i++)
         if (same(d->p.tip[f->v[i]].x, c.x) && same(d->p.tip[f->v[i]].y, c.y)) return 0;
@@ -710,6 +737,7 @@ static void drop_marked(depth *d)
         }
     sweep(&d->p);
     forget_tips(&d->p);
+    d->floor = NULL;
 }
 
 /* Drops what lies above the bound from below, which the depth does not. */
@@ -992,8 +1020,8 @@ static enum end deepen(depth *d)
         if (d->p.facets == 0) return OPEN;
         if (lowest_dip(d) && lowest_dip(d)->everywhere) return CLOSE;
         if (d->p.tips == d->p.most_tips) make_room(d);
-        facet *f = lowest(&d->p);
-        d->floor = f;
+        if (!d->floor || !d->floor->done) d->floor = lowest(&d->p); /* else nothing has changed */
+        facet *f = d->floor;
         if (f->done) return d->narrowed ? OPEN : STILL; /* a new facet by a wall may be lower, and no noise */
         if (is_proven_as_asked(d, f)) return CLOSE;
         if (is_proven(d, f)) {

@@ -717,16 +717,14 @@ static enum growth grow(polytope *p, facet *f, tip *t)
     return GROWN;
 }
 
+/* The first of the lowest. */
 static facet *lowest(const polytope *p)
 {
-    facet *low = p->facet;
-    real least = low->height;
-    for (facet *f = low + 1; f < p->facet + p->facets; f++) {
-        if (f->height > least || (f->height == least && f->done <= low->done)) continue;
-        least = f->height;
-        low = f;
-    }
-    return low;
+    facet *f = p->facet;
+    real least = f->height;
+    for (int k = 1; k < p->facets; k++) least = smaller(p->facet[k].height, least);
+    while (f->height > least) f++;
+    return f;
 }
 
 /* Those that are not marked have a wall where they met one that is. */
