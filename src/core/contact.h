@@ -58,8 +58,9 @@ static real fine_length(vec high, vec low) { return length_above(high, low) + 25
 static void bound_apart(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1],
                         real *upper)
 {
-    depth d = {.q = q, .a = a, .b = b, .g = g};
+    depth d;
     vec low, high = fine_pair(q, weight, &low);
+    begin_depth(&d, q, a, b, g);
     *upper = smaller(*upper, fine_length(high, low));
     bound_along(&d, q->normal);
 }
@@ -68,9 +69,10 @@ static void bound_apart(search *q, const shape *a, const shape *b, const goal *g
  * the direction of the best bound is only as good as that bound. Left as it is where it proves less. */
 static void point_along_pair(search *q, const shape *a, const shape *b, const goal *g, const real weight[DIM + 1])
 {
-    depth d = {.q = q, .a = a, .b = b, .g = g};
+    depth d;
     vec low, high = single_out(q, weight, &low), v = square_to(&q->s, add(high, low)), normal = q->normal;
     real lower = q->lower;
+    begin_depth(&d, q, a, b, g);
     if (!(length(v) > 0)) return;
     q->lower = -REAL_MAX;
     bound_along(&d, mul(v, -1 / length(v)));

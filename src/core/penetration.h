@@ -58,6 +58,25 @@ typedef struct depth {
     vec normal;         /* that goes with it */
 } depth;
 
+/* Of what is set later on nothing is. */
+static void begin_depth(depth *d, search *q, const shape *a, const shape *b, const goal *g)
+{
+    d->q = q;
+    d->a = a;
+    d->b = b;
+    d->g = g;
+    d->known_off = 0;
+    d->p = (polytope){.tips = 0};
+    d->floor = NULL;
+    d->dropped = (tally){.least = REAL_MAX};
+    d->dips = NULL;
+    d->seen = NULL;
+    d->along = d->sight.n = d->least_way = d->least_at = axis(0, 0);
+    d->below = 0;
+    d->least = REAL_MAX;
+    d->closings = d->sight.known = d->rested = d->narrowed = d->settled = d->flush = 0;
+}
+
 static tip tip_of(const vertex *c)
 {
     tip t = {c->w, axis(0, 0), c->x, c->y};
@@ -950,7 +969,7 @@ static int seek_dip(depth *d)
     bent b;
     dips *all = d->dips;
     const real least = -d->q->lower;
-    if (!ROUND || !all || all->n == MOST_DIPS || d->q->steps >= d->g->max_steps) return 1;
+    if (all->n == MOST_DIPS || d->q->steps >= d->g->max_steps) return 1;
     if (!(least < all->tried) || (all->best && !(least < all->best->floor - 4 * d->q->d.doubt))) return 1;
     all->tried = least;
     if (!find_lowest_dip(d, all->best || d->p.facets > DIM + 1 ? 0 : d->p.facets, &b)) return 1;
@@ -1016,7 +1035,7 @@ static int may_look_lower(const depth *d, int full)
 static enum end deepen(depth *d)
 {
     for (int full = 0;;) {
-        if (!seek_dip(d)) return FAULT;
+        if (ROUND && d->dips && !seek_dip(d)) return FAULT;
         if (d->p.facets == 0) return OPEN;
         if (lowest_dip(d) && lowest_dip(d)->everywhere) return CLOSE;
         if (d->p.tips == d->p.most_tips) make_room(d);

@@ -522,11 +522,11 @@ static inline real put_all_on(polytope *p, int rims, int t)
 }
 
 /* Which of the facet's seams is the other side of s, if any is: in space the one that starts where s ends. */
-static int seam_to(const polytope *p, int at, seam s)
+static inline int seam_to(const polytope *p, int at, seam s)
 {
-    int k = 0;
-    while (k < DIM - 1 && p->facet[at].v[k] != s.v[DIM - 2]) k++;
-    return k;
+    const int16_t *v = p->facet[at].v;
+    const int later = v[0] != s.v[DIM - 2];
+    return DIM == 2 ? later : later + (later & (v[1] != s.v[DIM - 2]));
 }
 
 /* Drops the seam at that place of the rim. */
@@ -610,31 +610,22 @@ static int seam_back(seam r) { return DIM == 2 ? 1 - r.v[1] : 2; }
 /* Whether the facet put on r has the one put on the other next to it, along the seam there. */
 static int comes_before(seam r, seam other) { return DIM == 2 ? r.v[1] == 0 && other.v[1] == 1 : other.v[0] == r.v[1]; }
 
-/* Each seam of the rim ends where the next one starts, all around. */
-static inline int is_ring(const polytope *p)
+/* Joins the facet there to the one that comes before it. */
+static inline void join_to(polytope *p, int at, int before)
 {
-    int r = DIM == 3;
-    for (int k = 0; k < p->rims && r; k++) r = comes_before(p->rim[k], p->rim[k + 1 < p->rims ? k + 1 : 0]);
-    return r;
-}
-
-/* Joins the facets that were put on a ring, each to the one before it and the one after it. */
-static inline void join_ring(polytope *p)
-{
-    int16_t before = p->rim[p->rims - 1].of;
-    for (int k = 0; k < p->rims; k++) {
-        facet *f = &p->facet[p->rim[k].of];
-        f->next[1] = p->rim[k + 1 < p->rims ? k + 1 : 0].of;
-        f->next[DIM - 1] = before;
-        before = p->rim[k].of;
-    }
+    p->facet[before].next[1] = (int16_t)at;
+    p->facet[at].next[DIM - 1] = (int16_t)before;
 }
 
 /* Joins the facets that were put on the rim: it goes around, once or more often, so each has one before it and one
  * after it. Where tips are passed more often than once any pairing will do. */
-static void join_all(polytope *p)
+static APART void join_all(polytope *p)
 {
     const int rims = p->rims;
+    for (int k = 0; k < rims; k++) {
+        const seam r = p->rim[k];
+        p->facet[r.of].next[seam_there(r)] = p->facet[r.of].next[seam_back(r)] = ALONE;
+    }
     for (int a = 0; a < rims; a++)
         for (int n = 0, b = a; n < rims; n++) {
             b = b + 1 < rims ? b + 1 : 0;
@@ -660,23 +651,29 @@ static void sweep(polytope *p)
 }
 
 /* The facets on the rim, which are the last so far, take the places of those that are gone, so many, and are tied in.
- * Seams of the rim know them from then on. */
+ * Seams of the rim know them from then on. As a rule each seam of it ends where the next one starts, all around. */
 static void settle_in(polytope *p, int before, int outs)
 {
     const int rims = p->rims;
-    int end = before;
+    seam last = p->rim[rims - 1];
+    int end = before, left = outs, ring = DIM == 3, place = WALL;
     for (int k = 0; k < rims; k++) {
-        int at = p->rim[k].of;
-        if (p->facet[at].gone) outs--;
-        else at = end++;
-        if (at != before + k) p->facet[at] = p->facet[before + k];
-        tie_to_rim(p, at, p->rim[k]);
+        const seam r = p->rim[k];
+        const int gone = p->facet[r.of].gone, at = gone ? r.of : end;
+        left -= gone;
+        end += !gone;
+        p->facet[at] = p->facet[before + k];
+        tie_to_rim(p, at, r);
         p->rim[k].of = (int16_t)at;
+        ring &= comes_before(last, r);
+        if (DIM == 3 && k > 0) join_to(p, at, place);
+        last = r;
+        place = at;
     }
     p->facets = end;
-    if (is_ring(p)) join_ring(p);
+    if (ring) join_to(p, p->rim[0].of, place);
     else join_all(p);
-    if (outs > 0) sweep(p); /* no seam of those was on the rim */
+    if (left > 0) sweep(p); /* no seam of those was on the rim */
 }
 
 /* Places the facets from there on by all that is known. Returns how low they are. */

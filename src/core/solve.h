@@ -239,14 +239,14 @@ static APART enum end fathom_in_own_room(depth *d, real *upper, real weight[])
     return fathom(d, upper, weight);
 }
 
-/* The cores meet, or rounding leaves it open: the depth instead of the distance. */
+/* The cores meet, or rounding leaves it open: the depth instead of the distance. searched: the simplex as it is. */
 static APART enum end plumb(search *q, const shape *a, const shape *b, const options *o, const goal *g, real *upper,
-                            real weight[], result *r)
+                            real weight[], const simplex *searched, result *r)
 {
+    depth d;
     goal here = scaled(g, q->d.scale);
-    depth d = {.q = q, .a = a, .b = b, .g = &here, .dropped.least = REAL_MAX, .least = REAL_MAX};
-    const simplex searched = q->s;
     real found[DIM + 1];
+    begin_depth(&d, q, a, b, &here);
     memcpy(found, weight, sizeof found);
     if (q->met) *upper = smaller(*upper, q->met_off);
     if (o->workspace) d.p = polytope_in(o->workspace, tips_in(o->workspace_bytes));
@@ -262,7 +262,7 @@ static APART enum end plumb(search *q, const shape *a, const shape *b, const opt
     }
     store(r->normal, q->normal);
     if (r->lower > 0) { /* apart after all: the pair that upper is of */
-        q->s = searched;
+        q->s = *searched;
         memcpy(weight, found, sizeof found);
     }
     witness(r, q, weight, a, b, r->lower > 0 ? 1 : 2);
@@ -288,8 +288,8 @@ static enum end tighten_from_either(search *q, const shape *a, const shape *b, c
 static enum end plumb_and_tell(search *q, const shape *a, const shape *b, const options *o, const goal *g, real upper,
                                real weight[], result *r)
 {
-    simplex searched = q->s;
-    enum end end = plumb(q, a, b, o, g, &upper, weight, r);
+    const simplex searched = q->s;
+    enum end end = plumb(q, a, b, o, g, &upper, weight, &searched, r);
     if (end == FAULT || !EXACT || upper <= 0) return end;
     result apart = *r;
     enum end told = tighten_from_either(q, a, b, g, &apart, weight, &searched);
@@ -337,7 +337,10 @@ static enum end go_deep(search *q, const shape *a, const shape *b, const options
     enum end further = FAULT;
     if (is_plumbed(q, g, still)) return plumb_and_tell(q, a, b, o, g, upper, weight, r);
     if (still && (g->exact || !open)) further = take_further(q, a, b, o, g, upper, weight, r);
-    if (may_meet(q, g, further)) return plumb(q, a, b, o, g, &upper, weight, r);
+    if (may_meet(q, g, further)) {
+        const simplex searched = q->s;
+        return plumb(q, a, b, o, g, &upper, weight, &searched, r);
+    }
     if (g->exact && further == FAULT) point_out_apart(q, a, b, g, upper, weight, r);
     return further == FAULT ? end : further;
 }
