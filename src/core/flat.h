@@ -364,8 +364,11 @@ static APART int go_on_flat(const flat *f, dvec v, int steps, const dstart *t, c
                             cache *own, int deep, int max_steps, result *r)
 {
     const goal g = {.deep = deep, .max_steps = max_steps};
-    dfront k = {.v = v, .steps = steps - 1};
     enum halt at = FOREMOST;
+    dfront k;
+    k.v = v;
+    k.steps = steps - 1;
+    k.around = k.under = 0;
     stand_as_started(f, &k, t);
     ask_flat(f, &k);
     if (!is_flat_foremost(f, &k)) {
