@@ -30,7 +30,9 @@ HOT int tell_apart_at(search *q, const scene *k, const front *f, int framed, con
                       const goal *g, result *r)
 {
     const spot *p = &f->last;
-    verdict t = {.v = f->way, .l = length(f->way), .way = p->w, .value = 0};
+    verdict t;
+    see_along(&t, f->way);
+    t.way = p->w;
     t.lower = dot(f->way, p->w) / t.l - q->d.doubt;
     t.upper = length(p->w) * (1 + 8 * UNIT) + q->d.doubt;
     t.a = place_of(&k->a, in_a(p));
@@ -209,6 +211,20 @@ HOT int settle_polygons(difference *d, const shape *a, const shape *b)
     return smaller(smaller(map_a, map_b), smaller(set_a, set_b)) > 1 / PLAIN && are_of_plain_size(square, a, b);
 }
 
+/* All that two polygons may be asked at once. */
+HOT goal goal_at_once(real radius, int sign_only, int deep, int max_steps)
+{
+    goal g;
+    g.beyond = REAL_MAX;
+    g.within = g.abs_tol = g.rel_tol = 0;
+    g.radius = radius;
+    g.early = g.exact = g.tight = 0;
+    g.sign_only = sign_only;
+    g.deep = deep;
+    g.max_steps = max_steps;
+    return g;
+}
+
 /* The everyday question of two polygons: how far apart, or whether they meet. 0: it is left to the whole answer, which
  * goes on from there. */
 HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o, int sign_only, int deep, result *r)
@@ -217,11 +233,8 @@ HOT int tell_at_once(search *q, const shape *a, const shape *b, const options *o
     q->flat = UNTRIED;
     if (!HAS_SISTER && (!list_polygon(&q->d.a, a) || !list_polygon(&q->d.b, b))) return 0;
     const uint32_t most = deep ? DEEP_ASKED_MOST : ASKED_MOST;
-    const goal g = {.beyond = REAL_MAX,
-                    .radius = a->radius + b->radius,
-                    .sign_only = sign_only,
-                    .deep = deep,
-                    .max_steps = (int)(o && o->max_steps != 0 && o->max_steps < most ? o->max_steps : most)};
+    const uint32_t max_steps = o && o->max_steps != 0 && o->max_steps < most ? o->max_steps : most;
+    const goal g = goal_at_once(a->radius + b->radius, sign_only, deep, (int)max_steps);
     if (HAS_SISTER) {
         q->flat = IN_VAIN;
         if (!tell_flat(a, b, o ? o->cache : NULL, &g, r)) return 0;

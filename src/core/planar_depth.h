@@ -99,7 +99,9 @@ static APART int tell_deep(search *q, const scene *k, front own, int framed, con
     front *f = &e.f;
     const real fall = fall_finely(d, k, &e, 0, a, b) + fall_finely(d, k, &e, 1, a, b);
     const real blur = blur_of(d), broad = d->doubt / PLANAR_DOUBT / 2 + (a->radius + b->radius) * d->scale;
-    verdict t = {.v = f->v, .l = length(f->v), .value = gap_of(d, e.from, a, b)};
+    verdict t;
+    see_along(&t, f->v);
+    t.value = gap_of(d, e.from, a, b);
     stand_in_ring(d, k, &o, edge_beside(&o, e.at), f);
     const closest pair = pair_at_front(d, k, f, share_of_edge(f));
     place_verdict(k, &pair, &t);

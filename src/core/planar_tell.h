@@ -22,6 +22,14 @@ typedef struct verdict {
     vec v, a, b, way;
 } verdict;
 
+/* Begins with the way along which they are apart. */
+HOT void see_along(verdict *t, vec v)
+{
+    t->v = v;
+    t->l = length(v);
+    t->value = 0;
+}
+
 /* Of any bodies. 0: that does not say whether they meet or, where it is asked, how deep; and nothing is changed. */
 static APART int spell_in_full(search *q, verdict own, int steps, int deep, const shape *a, const shape *b, result *r)
 {
@@ -307,8 +315,9 @@ static APART int tell_touching(search *q, const scene *k, front own, int framed,
 {
     const front *f = &own;
     const spot *const at[3] = {&f->p, f->n > 1 ? &f->q : &f->p, f->around ? &f->last : &f->p};
-    verdict t = {.v = f->way, .l = length(f->way), .value = 0};
+    verdict t;
     real weight[3];
+    see_along(&t, f->way);
     if (framed || !(f->around || f->ended) || f->steps == 0) return 0;
     if (!weigh_front(f, at, weight) || !are_spots_whole(&q->d, k, at, a, b)) return 0;
     if (g->deep && (dot(f->way, f->last.w) != 0 || !are_all_whole(&q->d, k, a, b))) return 0;
@@ -338,7 +347,8 @@ HOT int tell_front(search *q, const scene *k, front *f, int framed, const shape 
                    result *r)
 {
     const difference *d = &q->d;
-    verdict t = {.v = f->way, .l = length(f->way), .value = 0};
+    verdict t;
+    see_along(&t, f->way);
     t.lower = dot(f->way, f->last.w) / t.l - d->doubt;
     if (!(t.lower > EVIDENT * d->doubt) && g->radius == 0) {
         const int on_it = !(dot(f->v, f->p.w) > 0) && tell_touching(q, k, *f, framed, a, b, g, r);
@@ -373,7 +383,9 @@ HOT int tell_held(search *q, const scene *k, const front *f, int framed, const s
     if (!holds(&s, weight)) return 0;
     const real inside = rough_room(&s, weight);
     if (!(inside > (1 + EVIDENT) * d->doubt)) return 0;
-    verdict t = {.v = f->way, .l = length(f->way), .upper = d->doubt - inside, .value = 0};
+    verdict t;
+    see_along(&t, f->way);
+    t.upper = d->doubt - inside;
     t.lower = dot(f->way, f->last.w) / t.l - d->doubt;
     const real sum = weight[0] + weight[1] + weight[2];
     t.a = t.b = axis(0, 0);

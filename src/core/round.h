@@ -718,7 +718,12 @@ typedef struct rolling {
 
 static void start_rolling(rolling *s, const bulk *of, vec n)
 {
-    *s = (rolling){.of = of, .n = n, .left = -1, .held = -1, .most = ROLL, .last = REAL_MAX};
+    s->of = of;
+    s->n = n;
+    s->edges = s->slants = s->shut = 0;
+    s->left = s->held = -1;
+    s->most = ROLL;
+    s->last = REAL_MAX;
     for (int i = 0; i < of->limbs; i++) s->sign[i] = dot(of->limb[i].row[0], n) < 0 ? -1 : 1;
 }
 

@@ -252,7 +252,11 @@ static inline int way_out(vec x, vec e)
 static inline vista look_from_box(const difference *d, real level, vec uu)
 {
     const int of_a = d->a.asked == AS_BOX;
-    vista k = {.box = of_a ? &d->a : &d->b, .other = of_a ? &d->b : &d->a, .level = level, .out = -1};
+    vista k;
+    k.box = of_a ? &d->a : &d->b;
+    k.other = of_a ? &d->b : &d->a;
+    k.level = level;
+    k.out = -1;
     k.point = mul(first_end(k.other), k.other->grain);
     k.at = of_a ? add(mapped(k.other, k.point), d->c) : sub(mapped(k.other, k.point), d->c);
     k.half = mul(load(((const box *)k.box->data)->half), k.box->grain);
