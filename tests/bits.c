@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x587e25364f126121, 0xa12fb5669713a1e5, 0x4b00cae3f49bba6c};
+static const uint64_t known[3] = {0x8f170b6e0fc9ae53, 0x139aca8ecb8524c0, 0x41ddf064186fd027};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x3a7a37259c54938d, 0x1d8d63f92b94bea9, 0xa3b24d6d8c38e84a};
+static const uint64_t known[3] = {0x3a7a37259c54938d, 0x1d8d63f92b94bea9, 0xbca6a8f6360ab778};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0xa6855c340b4a21eb};
+static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0x49a11e0c0e3dc2a2};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x1696b69f80cb5f1a, 0x80c255f2ae78ef43};
+static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x1696b69f80cb5f1a, 0xf810d9c8f36053df};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

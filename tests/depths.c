@@ -2037,27 +2037,44 @@ static void ask_to_the_last_place(last_places *l)
     }
 }
 
-/* Every family with corners, as it is drawn, and at depths down to some 1e-12 of the scale. */
+/* As it is drawn, and at a depth down to some 1e-12 of the scale. */
+static void pair_to_the_last_place(last_places *l, uint64_t of_seed, enum family family)
+{
+    V(result) r;
+    draws d = draws_from(of_seed + 3, (uint64_t)family, (uint64_t)at);
+    double by = ldexp(1, -20 - (int)(at % 20));
+    draw_pair(&d, family, &drawn);
+    p = &drawn;
+    ask_to_the_last_place(l);
+    if (is_extreme(family) || !known) {
+        return;
+    }
+    ask(NULL, &r);
+    push(&r, by * scale());
+    ask_to_the_last_place(l);
+}
+
+/* Every family with corners. Of other seeds there are those whose facets are so small that their normals are noise:
+ * these were not settled. */
 static void last_places_of_depths(void **state)
 {
+    static const found_pair found[] = {{"gjk2", 5, MIXED, 896},
+                                       {"gjk3", 5, MIXED, 32},
+                                       {"gjk3", 6, MIXED, 2190},
+                                       {"gjk3f", 5, MIXED, 1864},
+                                       {"gjk3f", 6, THIN, 2371}};
+    const found_pair *one;
     last_places l;
     (void)state;
     memset(&l, 0, sizeof l);
     for (int f = 0; f < FAMILIES; f++) {
         for (at = 0; at < pairs_per_family && !is_costly((enum family)f) && f != COUPLES; at++) {
-            V(result) r;
-            draws d = draws_from(seed + 3, (uint64_t)f, (uint64_t)at);
-            double by = ldexp(1, -20 - (int)(at % 20));
-            draw_pair(&d, (enum family)f, &drawn);
-            p = &drawn;
-            ask_to_the_last_place(&l);
-            if (is_extreme((enum family)f) || !known) {
-                continue;
-            }
-            ask(NULL, &r);
-            push(&r, by * scale());
-            ask_to_the_last_place(&l);
+            pair_to_the_last_place(&l, seed, (enum family)f);
         }
+    }
+    for (size_t k = 0; (one = next_found(found, sizeof found / sizeof *found, &k)) != NULL;) {
+        at = one->at;
+        pair_to_the_last_place(&l, one->seed, one->family);
     }
     printf("%-6s to the last place: %ld pairs, %ld settled, %ld of them flush; error %.3g ulp, depth down to %.2g\n",
            VARIANT, l.pairs, l.settled, l.flush, l.max_error, l.least);

@@ -114,9 +114,9 @@ static inline int is_lower_twin(twin h, twin k) { return h.high < k.high || (h.h
 /* How high the body's point stands. */
 HOT twin own_height(const outlook *o, real (*own)(duo), real grain, vec x)
 {
-    const vec *points = own == of_a ? o->x : o->y;
+    const vec *known = own == of_a ? o->x : o->y;
     int k = 0;
-    while (k < o->known && !(points[k].c[0] == x.c[0] && same(points[k], x))) k++;
+    while (k < o->known && !(known[k].c[0] == x.c[0] && same(known[k], x))) k++;
     const duo_twin both = k < o->known ? o->stand[k] : heights_of(o, duos_both(mul(x, grain)));
     return (twin){own(both.high), own(both.low)};
 }

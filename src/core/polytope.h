@@ -439,11 +439,12 @@ static int is_on_side(const polytope *p, const facet *f, seam s, const tip *t)
 }
 
 /* On which side of the facet t is, as well as can be told: of the sign. The facet's normal is off by some roundings,
- * which count by how far t is from the nearest corner. */
+ * which count by how far t is from the nearest corner; of a small facet it is noise to those who know more. */
 static real side_of(polytope *p, facet *f, tip *t)
 {
     real r = rough_rise(f, t);
     if (is_clear(f, r)) return r;
+    if (p->side && f->form != WIDE) return (real)p->side(p->of, f, t); /* its normal may be none */
     if (is_fourth(p, f, t)) return 0;
     r = rise_over(p, f, t);
     if (size(r) > CLEAR) return r;

@@ -77,15 +77,15 @@ static real height_above(const finish *f, const depth *d)
 }
 
 /* The lowest of the facets, by their planes, or the first that has the origin beyond it; f, ends: its own. One that is
- * proven to be higher by rounded numbers need not be looked at; one without area is a line, which other facets have in
- * common. NULL: numbers are lost, or one that was dropped may be lower. */
+ * proven to be higher by rounded numbers need not be looked at, if it is turned as these say; one without area is a
+ * line, which other facets have in common. NULL: numbers are lost, or one that was dropped may be lower. */
 static facet *lowest_plane(finish *f, const depth *d, real ends[3])
 {
     facet *best = NULL;
     real here[3], height = REAL_MAX;
     for (int k = 0; k < d->p.facets; k++) {
         facet *at = &d->p.facet[k];
-        if (floor_of(d, at) > height) continue;
+        if (at->form == WIDE && floor_of(d, at) > height) continue;
         take_plane(f, d, at);
         if (f->lost) return NULL;
         if (f->over.sign < 0) return at;
