@@ -308,10 +308,10 @@ static inline int place_roughly(const polytope *p, facet *f)
     return 1;
 }
 
-/* Puts a facet between these tips on the place, which knows of no other. */
+/* Puts a facet between these tips on the place; what is next to it is told it later. */
 static inline void lay_facet(facet *f, const int16_t v[DIM])
 {
-    EACH(f->v[i] = v[i]; f->next[i] = ALONE);
+    EACH(f->v[i] = v[i]);
     f->done = f->gone = 0;
 }
 
