@@ -469,6 +469,54 @@ static void what_the_way_falls_short(void **state)
 
 static usual_room room_of_all;
 
+#if DIM == 3
+/* The facet across each seam has that seam, too, and knows whom it has there. */
+static void expect_closed(const polytope *p)
+{
+    for (int k = 0; k < p->facets; k++) {
+        for (int i = 0; i < 3; i++) {
+            const seam s = seam_of(p, k, i);
+            assert_in_range(s.next, 0, p->facets - 1);
+            const seam back = seam_of(p, s.next, seam_to(p, s.next, s));
+            assert_true(back.v[0] == s.v[1] && back.v[1] == s.v[0] && back.next == k);
+        }
+    }
+}
+
+/* Two facets that have nothing in common make room for one corner: the rim goes around twice. */
+static void two_holes_are_closed(void **state)
+{
+    static const int16_t side[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                       {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    static const int16_t across[8][3] = {{4, 1, 3}, {5, 2, 0}, {6, 3, 1}, {7, 0, 2},
+                                         {0, 7, 5}, {1, 4, 6}, {2, 5, 7}, {3, 6, 4}};
+    static const int gone[2] = {0, 6};
+    polytope p = polytope_in(&room_of_all, USUAL_TIPS);
+    (void)state;
+    memset(p.tip, 0, 7 * sizeof *p.tip);
+    for (int k = 0; k < 6; k++) {
+        p.tip[k].w = axis(k / 2, k % 2 ? (real)-1 : (real)1);
+    }
+    p.tip[6].w = (vec){{2, 2, 2}};
+    p.tips = 7;
+    for (int k = 0; k < 8; k++) {
+        put_facet(&p, side[k]);
+        memcpy(p.facet[k].next, across[k], sizeof across[k]);
+    }
+    expect_closed(&p);
+    for (int k = 0; k < 2; k++) {
+        p.facet[gone[k]].gone = 1;
+        for (int i = 0; i < 3; i++) {
+            p.rim[p.rims++] = seam_of(&p, gone[k], i);
+        }
+    }
+    put_all_on(&p, p.rims, 6);
+    settle_in(&p, 8, 2);
+    assert_int_equal(p.facets, 12);
+    expect_closed(&p);
+}
+#endif
+
 /* A facet that is done has been asked for by more than rounded corners. */
 static void done_is_not_rough(void **state)
 {
@@ -1100,6 +1148,9 @@ int main(void)
         cmocka_unit_test(square_to_corners_far_away),
         cmocka_unit_test(weights_may_be_off),
         cmocka_unit_test(what_the_way_falls_short),
+#if DIM == 3
+        cmocka_unit_test(two_holes_are_closed),
+#endif
         cmocka_unit_test(done_is_not_rough),
         cmocka_unit_test(headings_save_calls),
         cmocka_unit_test(a_glance_needs_no_frame),

@@ -756,7 +756,7 @@ static void drop_marked(depth *d)
         }
     sweep(&d->p);
     forget_tips(&d->p);
-    d->floor = NULL;
+    d->floor = lowest(&d->p); /* facets have moved */
 }
 
 /* Drops what lies above the bound from below, which the depth does not. */
