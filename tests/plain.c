@@ -525,7 +525,8 @@ static void done_is_not_rough(void **state)
     state_of_draws = 8;
     for (int k = 0; k < PAIRS / 10; k++) {
         const goal g = {.beyond = REAL_MAX, .within = -1, .exact = 1, .deep = 1, .max_steps = 256};
-        depth d = {.q = &q, .a = &shapes[0], .b = &shapes[1], .g = &g, .dropped.least = REAL_MAX, .least = REAL_MAX};
+        depth d;
+        begin_depth(&d, &q, &shapes[0], &shapes[1], &g);
         place_together = 1;
         assert_true(open_pair());
         place_together = 0;

@@ -60,6 +60,7 @@ HOT duo_twin heights_of(const outlook *s, duos x)
     return duo_sum_of(h.high, h.low);
 }
 
+/* How high x and y stand. */
 HOT duo_twin both_heights(const outlook *s, const difference *d, vec x, vec y)
 {
     return heights_of(s, duos_mul(duos_of(x, y), d->grains));
@@ -73,11 +74,13 @@ HOT twin height_of_both(const outlook *s, twin a, twin b)
     return sum_of(a.high, a.low - a.high * s->excess);
 }
 
+HOT twin twin_of(duo_twin both, real (*own)(duo)) { return (twin){own(both.high), own(both.low)}; }
+
 /* The height of A - B's point x - y. */
 HOT twin height_at(const outlook *s, const difference *d, vec x, vec y)
 {
     const duo_twin both = both_heights(s, d, x, y);
-    return height_of_both(s, (twin){of_a(both.high), of_a(both.low)}, (twin){of_b(both.high), of_b(both.low)});
+    return height_of_both(s, twin_of(both, of_a), twin_of(both, of_b));
 }
 
 /* The same, of one more point that is to be known. */
@@ -87,7 +90,7 @@ HOT twin height_noted(outlook *s, const difference *d, vec x, vec y)
     s->x[s->known] = x;
     s->y[s->known] = y;
     s->stand[s->known++] = both;
-    return height_of_both(s, (twin){of_a(both.high), of_a(both.low)}, (twin){of_b(both.high), of_b(both.low)});
+    return height_of_both(s, twin_of(both, of_a), twin_of(both, of_b));
 }
 
 /* ---- the farthest corner ---- */
@@ -117,8 +120,7 @@ HOT twin own_height(const outlook *o, real (*own)(duo), real grain, vec x)
     const vec *known = own == of_a ? o->x : o->y;
     int k = 0;
     while (k < o->known && !(known[k].c[0] == x.c[0] && same(known[k], x))) k++;
-    const duo_twin both = k < o->known ? o->stand[k] : heights_of(o, duos_both(mul(x, grain)));
-    return (twin){own(both.high), own(both.low)};
+    return twin_of(k < o->known ? o->stand[k] : heights_of(o, duos_both(mul(x, grain))), own);
 }
 
 /* Which of these is the highest in truth, the first of equals; those that are about lower than least are not. It is the

@@ -225,6 +225,7 @@ static APART int tell_finely(search *q, const scene *k, front own, const shape *
     t.value = gap_of(d, height, a, b);
     const real radius = (a->radius + b->radius) * d->scale, width = t.upper - t.lower;
     if (!(width <= MOST_WIDE * d->doubt)) return 0;
+    /* of turned bodies whole has the reach 1.4 times: a half of it would be more than the bodies are */
     if (deep && !(t.lower > radius) && !(width <= BROAD * (whole * 3 / 8 + radius))) return 0;
     return spell_in_full(q, t, f->steps, deep, a, b, r);
 }
