@@ -23,7 +23,7 @@ static const uint64_t known[3] = {0x3a7a37259c54938d, 0x1d8d63f92b94bea9, 0xbca6
 static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0x49a11e0c0e3dc2a2};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x1696b69f80cb5f1a, 0xf810d9c8f36053df};
+static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x15d9168e09176ac1, 0xf810d9c8f36053df};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

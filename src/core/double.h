@@ -171,19 +171,18 @@ HOT dvec dnegative(dvec a) { return dsub(dboth(0), a); }
 /* The first of eight that is no larger than those of x; the last where none is. */
 HOT unsigned dfirst_within(const dvec a[4], dvec x) { return first_bit(dwithin(a, x) | 1u << 15) / 2; }
 
-/* Dots of a with x, and of b. */
-HOT dvec ddots(dvec a, dvec b, dvec x)
+/* Dots of a with x and of b with y. */
+HOT dvec ddots_of(dvec a, dvec x, dvec b, dvec y)
 {
-    const dvec p = dtimes(a, x), q = dtimes(b, x);
+    const dvec p = dtimes(a, x), q = dtimes(b, y);
     return dadd(dfirsts(p, q), dseconds(p, q));
 }
 
+/* Of both with x. */
+HOT dvec ddots(dvec a, dvec b, dvec x) { return ddots_of(a, x, b, x); }
+
 /* Of each with itself. */
-HOT dvec dsquares(dvec a, dvec b)
-{
-    const dvec p = dtimes(a, a), q = dtimes(b, b);
-    return dadd(dfirsts(p, q), dseconds(p, q));
-}
+HOT dvec dsquares(dvec a, dvec b) { return ddots_of(a, a, b, b); }
 
 HOT double ddot(dvec a, dvec b)
 {
@@ -201,11 +200,7 @@ HOT double dleast(double x, double y) { return x < y ? x : y; }
 /* Rounded as sqrt is, without a call (real.h). */
 HOT double droot(double x) { return dfirst(droots(dboth(x))); }
 
-HOT dvec dlengths(dvec a, dvec b)
-{
-    const dvec p = dtimes(a, a), q = dtimes(b, b);
-    return droots(dadd(dfirsts(p, q), dseconds(p, q)));
-}
+HOT dvec dlengths(dvec a, dvec b) { return droots(dsquares(a, b)); }
 
 /* What a map, by rows, makes of directions: that along which a body's own corners are as high as placed ones along v.
  */

@@ -58,34 +58,26 @@ HOT int tell_flat_apart(const flat *f, const dfront *k, const shape *a, const sh
     return spell_flat(f, k->steps, &s, lower, s.far - f->radius + blur, lower, 1, r);
 }
 
-/* By how much the origin is to the left of an edge, times its length, and the square of how far that is. */
-HOT double turn_at(dvec p, dvec q, double *square)
-{
-    const dvec e = dsub(q, p);
-    const double turn = dcross(p, e);
-    *square = dleast(turn * turn / ddot(e, e), *square);
-    return turn;
-}
-
-/* They overlap: the corner asked for last and the edge hold the origin. 0: with less room than is in doubt, or too
- * narrowly for a point of both. */
+/* They overlap: the corner asked for last and the edge hold the origin, which is to the same side of all three edges.
+ * 0: with less room than is in doubt, or too narrowly for a point of both. */
 HOT int tell_flat_held(const flat *f, const dfront *k, result *r)
 {
-    const dspot at[3] = {k->p, k->q, k->last};
-    double square = DBL_MAX, turn[3];
-    dsight s = {.v = k->way};
-    dvec off = dboth(0);
-    for (int i = 0; i < 3; i++) turn[i] = turn_at(at[(i + 1) % 3].w, at[(i + 2) % 3].w, &square);
-    if (!((turn[0] > 0 && turn[1] > 0 && turn[2] > 0) || (turn[0] < 0 && turn[1] < 0 && turn[2] < 0))) return 0;
-    const double inside = droot(square), blur = 2 * f->blur + f->radius * 0x1p-51;
-    s.per = 1 / dlength(k->way);
-    s.a = dboth(0);
-    for (int i = 0; i < 3; i++) {
-        const double share = turn[i] / (turn[0] + turn[1] + turn[2]);
-        s.a = dadd(s.a, dmul(at[i].a, share));
-        off = dadd(off, dmul(at[i].w, share));
-    }
-    off = dsizes(off);
+    const dspot *const p = &k->p, *const q = &k->q, *const o = &k->last;
+    const dvec none = dboth(0), across_p = dsub(o->w, q->w), across_q = dsub(p->w, o->w), across_o = dsub(q->w, p->w);
+    /* how far to their left, times their length; which are the corners' weights, too */
+    const dvec first = ddots_of(dturned(q->w), across_p, dturned(o->w), across_q);
+    const dvec last = dboth(dcross(p->w, across_o));
+    const dvec least = dsmaller(first, last), most = dlarger(first, last);
+    if (!(dfirst(least) > 0 && dsecond(least) > 0) && !(dfirst(most) < 0 && dsecond(most) < 0)) return 0;
+    const dvec far = dsmaller(ddivide(dtimes(first, first), dsquares(across_p, across_q)),
+                              ddivide(dtimes(last, last), dboth(ddot(across_o, across_o))));
+    const double inside = droot(dleast(dfirst(far), dsecond(far))), blur = 2 * f->blur + f->radius * 0x1p-51;
+    const dvec of_p = dfirsts(first, first), of_q = dseconds(first, first);
+    const dvec share = ddivide(dboth(1), dadd(dadd(of_p, of_q), last));
+    const dvec a = dadd(dadd(dtimes(p->a, of_p), dtimes(q->a, of_q)), dtimes(o->a, last));
+    const dvec w = dadd(dadd(dtimes(p->w, of_p), dtimes(q->w, of_q)), dtimes(o->w, last));
+    const dvec off = dsizes(dtimes(w, share));
+    const dsight s = {.a = dtimes(a, share), .b = none, .v = k->way, .per = 1 / dlength(k->way)};
     if (!(dfirst(off) + dsecond(off) <= f->wide)) return 0;
     const double upper = blur - inside - f->radius;
     return spell_flat(f, k->steps, &s, k->height * s.per - f->radius - blur, upper, upper, 0, r);
@@ -286,7 +278,6 @@ HOT int is_flat_within(const flat *f, const dfront *k)
 HOT int is_flat_foremost(const flat *f, const dfront *k)
 {
     const double gap = ddot(k->v, dsub(k->p.w, k->last.w));
-    if (k->last.at == k->p.at || k->last.at == k->q.at) return 1;
     return !(gap > 0) || gap * gap <= f->blur * f->blur * ddot(k->v, k->v);
 }
 
@@ -413,6 +404,24 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
     return go_on_flat(f, k->v, k->steps, &start, a, b, own, g->deep, g->max_steps, r);
 }
 
+/* Whether they meet: by the first corner, if that shows them to be apart, else from the first front on. */
+HOT int tell_flat_meeting(const flat *f, dfront *k, const shape *a, const shape *b, cache *own, const goal *g,
+                          result *r)
+{
+    dlook l;
+    dstart t;
+    dsight s;
+    look_flat(f, k, &l);
+    k->height = dfirst(l.a.least) + dfirst(l.b.least);
+    if (shows_apart_flat(f, k)) {
+        find_last(f, k, &l);
+        return tell_walked_flat(f, k, SHOWN, 0, a, b, own, g, r);
+    }
+    start_flat(f, k, &l, &t, &s);
+    stand_as_started(f, k, &t);
+    return tell_walked_flat(f, k, walk_flat(f, k, g), 0, a, b, own, g, r);
+}
+
 /* The corner of the difference that these make. */
 HOT dspot dspot_made(const flat *f, const real *x, const real *y)
 {
@@ -515,8 +524,9 @@ HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, res
     k.n = k.around = k.under = 0;
     k.steps = steps;
     k.v = ddot(f.c, f.c) > 0 ? f.c : dvec_of(1, 0);
-    if (!g->sign_only && g->max_steps > steps + 1) return tell_flat_start(&f, &k, a, b, own, g, r);
-    return tell_walked_flat(&f, &k, walk_flat(&f, &k, g), 0, a, b, own, g, r);
+    if (g->max_steps <= steps + 1) return tell_walked_flat(&f, &k, walk_flat(&f, &k, g), 0, a, b, own, g, r);
+    if (g->sign_only) return tell_flat_meeting(&f, &k, a, b, own, g, r);
+    return tell_flat_start(&f, &k, a, b, own, g, r);
 }
 
 #else
