@@ -14,7 +14,7 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x8f170b6e0fc9ae53, 0x139aca8ecb8524c0, 0x41ddf064186fd027};
+static const uint64_t known[3] = {0x8f170b6e0fc9ae53, 0x139aca8ecb8524c0, 0xc6c6797b3d555df2};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
 static const uint64_t known[3] = {0x3a7a37259c54938d, 0x1d8d63f92b94bea9, 0xbca6a8f6360ab778};

@@ -516,7 +516,11 @@ static void certain_outweighs_doubtful(void **state)
     } of[] = {{0, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 0, 1}, {0, 1, 1, 0}, {0, 0, 1, 0.5}, {0, 1, 1, 0.25}, {3, 0, 1, 1}};
     (void)state;
     for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
-        tally t = {DIM + 1, of[k].proven, 1, of[k].certain, of[k].doubtful};
+        tally t = {.facets = DIM + 1,
+                   .proven = of[k].proven,
+                   .least = 1,
+                   .certain = of[k].certain,
+                   .doubtful = of[k].doubtful};
         assert_int_equal(surrounds(&t), of[k].surrounds);
     }
 }

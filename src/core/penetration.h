@@ -18,6 +18,7 @@
 typedef struct tally {
     int facets, proven;
     real least, certain, doubtful;
+    facet *lowest; /* whose floor is that least; NULL: one that was dropped, or none */
 } tally;
 
 /* Where the heights of round sets are least nearby. */
@@ -474,13 +475,15 @@ static real floor_of_narrow(const depth *d, const facet *f)
 }
 
 /* How low the facets are. */
-static void count_height(const depth *d, const facet *f, tally *t)
+static void count_height(const depth *d, facet *f, tally *t)
 {
     t->facets++;
     if (!(f->height - 64 * UNIT - d->q->d.doubt < t->least)) return;
     real floor = floor_seen_well(d, f, t->least);
     if (!(floor > -REAL_MAX)) floor = d->g->exact && f->form != WIDE ? floor_of_narrow(d, f) : floor_of(d, f);
-    t->least = smaller(floor, t->least);
+    if (!(floor < t->least)) return;
+    t->least = floor;
+    t->lowest = f;
 }
 
 /* Whether the origin is on the inner side of the facet for certain, with all that its corners may have been rounded
@@ -596,6 +599,7 @@ static int pull_back(polytope *p, dip *f)
 static real count_surface(depth *d, tally *all)
 {
     *all = d->dropped;
+    all->lowest = NULL;
     if (d->floor) count_height(d, d->floor, all);
     for (int k = 0; k < d->p.facets; k++)
         if (&d->p.facet[k] != d->floor) count_height(d, &d->p.facet[k], all);
@@ -606,6 +610,26 @@ static real count_surface(depth *d, tally *all)
         if (d->dips->at[i].planted && !is_sound(&d->dips->at[i], least))
             return pull_back(&d->p, &d->dips->at[i]) ? -1 : 0;
     return least;
+}
+
+/* A bracket of known corners as wide as that may be so since the lowest facet is not the one that was taken for it by
+ * rounded heights. */
+#define UNEVEN (4 * UNIT)
+
+/* The facet is the lowest by heights to twice the digits: it is the floor, if its own bound from below is a better one.
+ */
+static void take_for_floor(depth *d, facet *f)
+{
+    const vec along = d->along;
+    const real below = d->below, best = d->q->lower;
+    if (f->rough) sharpen_facet(&d->p, f);
+    bound_along(d, f->n);
+    if (d->q->lower > best) {
+        d->floor = f;
+        return;
+    }
+    d->along = along;
+    d->below = below;
 }
 
 /* Bounds of what is known of the separation of the cores, to rounding; with known corners to next to none. Whether the
@@ -622,7 +646,9 @@ static int bound(depth *d, real *upper)
     for (int i = 0; i <= count_dips(d) && least < 0; i++) least = count_surface(d, &all);
     int proven = all.facets > 0 && (d->settled || all.least > 0) && goes_around(d, all.least);
     if (proven && least > 0) *upper = smaller(*upper, -least);
-    if (d->g->exact) bound_along(d, d->floor ? d->floor->n : d->q->normal);
+    if (!d->g->exact) return proven;
+    bound_along(d, d->floor ? d->floor->n : d->q->normal);
+    if (proven && d->floor && all.lowest && *upper - d->q->lower > UNEVEN) take_for_floor(d, all.lowest);
     return proven;
 }
 
