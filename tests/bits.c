@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x8f170b6e0fc9ae53, 0x139aca8ecb8524c0, 0xc6c6797b3d555df2};
+static const uint64_t known[3] = {0xe07e7bc856a8699c, 0x55dc98e2ab4889cb, 0x88dd07a6aed92778};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x3a7a37259c54938d, 0x1d8d63f92b94bea9, 0xbca6a8f6360ab778};
+static const uint64_t known[3] = {0x9f84743c9406d5c2, 0xf1b2010f571fbd9b, 0xa9e6484be549ad00};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x73fcb6301eb403f8, 0x7c690e8a7790d86c, 0x49a11e0c0e3dc2a2};
+static const uint64_t known[3] = {0x1e50940f4694e401, 0x07de99c3320a8589, 0x5dd574e9b2be43f5};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x15d9168e09176ac1, 0xf810d9c8f36053df};
+static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x025cefa4d8b46e77, 0xf810d9c8f36053df};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

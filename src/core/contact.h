@@ -289,18 +289,20 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     return taken > 0 && goes_with_bound(q, other) ? other : NULL;
 }
 
-/* The dip near the one known best, or on the other side, that may be the least everywhere as it is curved. 0: there is
- * none. */
+/* The dip near the one known best, or on the other side, that may be the least everywhere as it is curved; of those of
+ * ellipsoids that all but share their middles the lower one. 0: there is none. */
 static int find_curved_dip(const depth *d, bent *b)
 {
     const bulk *of = &d->dips->first->bulk;
     bent *first = first_dip_of(d);
-    if (first && known_room(of, first) > 0) {
-        *b = *first;
-        return 1;
+    const int curved = first && known_room(of, first) > 0;
+    if (!curved || is_centred(of, first->height)) {
+        const int found = are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) &&
+                          (known_room(of, b) > 0 || is_centred(of, b->height));
+        if (!curved || (found && b->height < first->height)) return found;
     }
-    return are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) &&
-           (known_room(of, b) > 0 || is_centred(of, b->height));
+    *b = *first;
+    return 1;
 }
 
 #if DIM == 3
@@ -319,18 +321,23 @@ static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
     search *q = d->q;
     const real lower = q->lower;
     const vec normal = q->normal;
-    const int taken = take_dip(d, b, f);
+    const int taken = take_dip(d, b, f), bounded = taken >= 0 && f->held > CLEAR; /* of all ways */
     if (taken < 0) return -1;
-    if (taken && !f->everywhere && f->held > CLEAR) {
+    if (bounded && !(taken && f->everywhere)) {
         all->held = 1;
         f->everywhere = last || is_as_asked_by(d, f, -f->held);
-        if (f->everywhere || !(b->floor > 0)) *upper = smaller(*upper, -f->held); /* else points would not go with it */
+        if (taken && (f->everywhere || !(b->floor > 0))) /* else points would not go with it */
+            *upper = smaller(*upper, -f->held);
         if (f->everywhere) {
             f->floor = f->held;
             f->far = 0;
         }
     }
-    if (taken && f->everywhere && bounds_as_well(q, f)) {
+    if (bounded && f->everywhere && f->below > q->lower) {
+        q->lower = f->below;
+        q->normal = f->n;
+    }
+    if ((taken || bounded) && f->everywhere && bounds_as_well(q, f)) {
         all->best = f;
         if (!last) all->n = 1;
         return 1;

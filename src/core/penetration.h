@@ -805,6 +805,9 @@ static void narrow_down(depth *d)
 /* Nothing that was dropped so is lower than the floor. */
 static int is_floor_of_all(const depth *d) { return !d->narrowed || d->floor->height <= d->dropped.least; }
 
+/* A way back that is longer by more than this is not walked down. */
+#define BEHIND ((real)1.0625)
+
 /* So often a direction is turned on the way down. */
 #define TURNS 16
 
@@ -850,13 +853,25 @@ static int look_along_edges(depth *d, const facet *f)
     return 1;
 }
 
+/* Of bodies that all but share their middles the way back is about as short, and is walked down as well. 0: a support's
+ * answer was none. */
+static int look_behind(depth *d)
+{
+    tip t;
+    const vec back = mul(d->q->normal, -1);
+    const real least = -d->q->lower;
+    if (d->q->steps >= d->g->max_steps) return 1;
+    if (!ask_along(d, back, &t)) return 0;
+    return !(dot(back, t.w) <= least * BEHIND) || walk_down(d, back);
+}
+
 /* Looks for the least height near the lowest facet, where facets are used up. 0: a support's answer was none. */
 static int look_lower(depth *d, const facet *f, int first)
 {
     if (!look_along_edges(d, f)) return 0;
     if (!first) return 1;
     const vec best = d->q->normal;
-    return walk_down(d, best) && (!d->rested || walk_down(d, f->n));
+    return walk_down(d, best) && (!d->rested || walk_down(d, f->n)) && look_behind(d);
 }
 
 /* ---- dips of round sets ---- */

@@ -585,10 +585,12 @@ static inline int is_poised(real slope, real bow, real height)
     return bow < height - 4096 * UNIT * height && is_all_but_level(slope, height);
 }
 
-/* One way across: down, to where there would be no slope if it is bowed. */
+/* One way across: down, to where there would be no slope if it is bowed, and by no more than that; as far as may be if
+ * it is bowed the other way. Where it is level, as far as can be told, what slope there is may be noise. */
 static inline real roll_along(real slope, real bow, real height, real most)
 {
-    real k = bow > height ? bow - height : bow;
+    const int level = size(bow - height) <= 4096 * UNIT * height;
+    const real k = bow > height ? bow - height : level ? bow : 0;
     if (is_poised(slope, bow, height)) return slope > 0 ? -most : most;
     return size(slope) < most * k ? -slope / k : slope > 0 ? -most : most;
 }
@@ -612,14 +614,13 @@ static inline int turn_by(const bent *b, const real slope[2], real more, real t[
 
 /* How much more the height is to count as bowed, off edges, where it has that slope: to where the height, and not the
  * height of the same over n's length, would have none (Newton); or, where it is not bowed like that, or that is too
- * far, so much that the turn is no longer than most (Levenberg). */
+ * far, so much that it is, and the turn no longer than most (Levenberg). */
 static real more_bow(const bent *b, const real slope[2], real most)
 {
     real t[2];
     const real least = least_value(&b->bow), steep = length_across(slope);
     if (least > b->height && turn_by(b, slope, -b->height, t) && length_across(t) <= most) return -b->height;
-    if (least > b->height && is_all_but_level(steep, b->height)) return steep / most - b->height;
-    return larger(-b->height, 0) + steep / most;
+    return larger(-least, -b->height) + steep / most;
 }
 
 /* Off edges, where n is poised: down along the way across that is bowed least. 0: it is not. */
