@@ -270,16 +270,16 @@ static void it_is_the_least_nearby(void **state)
     assert_true(found > PAIRS * 99 / 100 && exact > found * 98 / 100);
 }
 
-/* Ellipsoids that are all but balls, or all but share their middles, are about as high along all ways: n is brought to
- * rest from any of them. */
+/* Ellipsoids that are all but balls, or all but share their middles, are about as high along all ways, and any sets in
+ * these along all around an edge: n is brought to rest from any of them. */
 static void it_is_found_where_all_ways_are_alike(void **state)
 {
-    long found = 0;
+    long found = 0, edged = 0;
     (void)state;
     state_of_draws = 19;
-    for (int k = 0; k < PAIRS; k++) {
-        draw_pair_of(1, 0, pow(10, any_between(-6, 0)));
-        for (int i = 0; i < 2; i++) {
+    for (int k = 0; k < 2 * PAIRS; k++) {
+        draw_pair(kinds[0], k % 2 ? kinds[k / 2 % KINDS] : kinds[0], pow(10, any_between(-6, 0)));
+        for (int i = 0; i < 2 - k % 2; i++) {
             const double apart = pow(10, any_between(-6, 0));
             for (int j = 1; j < DIM; j++) {
                 numbers[i][j] = (real)((double)numbers[i][0] * (1 + apart * any_between(0, 1)));
@@ -287,11 +287,11 @@ static void it_is_found_where_all_ways_are_alike(void **state)
         }
         if (find_dip(1)) {
             check_that_it_is_least();
-            found++;
+            *(k % 2 ? &edged : &found) += 1;
         }
     }
-    printf("all ways are alike: found %ld of %d\n", found, PAIRS);
-    assert_true(found > PAIRS * 999 / 1000 - 1);
+    printf("all ways are alike: found %ld, and %ld of any sets, of %d\n", found, edged, PAIRS);
+    assert_true(found > PAIRS * 999 / 1000 - 1 && edged > PAIRS * 97 / 100);
 }
 
 /* What curvature says of heights up to so far from there, an error as large as is said taken off, where cones' edges
