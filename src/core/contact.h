@@ -289,20 +289,18 @@ static const dip *dip_to_stand_in(depth *d, dip *other, enum end *end)
     return taken > 0 && goes_with_bound(q, other) ? other : NULL;
 }
 
-/* The dip near the one known best, or on the other side, that may be the least everywhere as it is curved; of those of
- * ellipsoids that all but share their middles the lower one. 0: there is none. */
+/* The dip near the one known best, or on the other side, that may be the least everywhere as it is curved. 0: there is
+ * none. */
 static int find_curved_dip(const depth *d, bent *b)
 {
     const bulk *of = &d->dips->first->bulk;
     bent *first = first_dip_of(d);
-    const int curved = first && known_room(of, first) > 0;
-    if (!curved || is_centred(of, first->height)) {
-        const int found = are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) &&
-                          (known_room(of, b) > 0 || is_centred(of, b->height));
-        if (!curved || (found && b->height < first->height)) return found;
+    if (first && known_room(of, first) > 0) {
+        *b = *first;
+        return 1;
     }
-    *b = *first;
-    return 1;
+    return are_ellipsoids(of) && find_least(of, mul(d->q->normal, -1), NULL, b) &&
+           (known_room(of, b) > 0 || is_centred(of, b->height));
 }
 
 #if DIM == 3

@@ -29,7 +29,7 @@ typedef struct dips {
     dip *best; /* the lowest; NULL: none */
     int n;
     real tried; /* how deep it was known to be at most when one was last looked for */
-    int held;   /* what an ellipsoid proves of all ways is in the bracket */
+    int held;   /* an ellipsoid proves something of all ways */
 } dips;
 
 typedef struct depth {
