@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0xe07e7bc856a8699c, 0x55dc98e2ab4889cb, 0x88dd07a6aed92778};
+static const uint64_t known[3] = {0x0160875d70035c77, 0x3dbc2851392e56c0, 0x3846d96d0233d14b};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x9f84743c9406d5c2, 0xf1b2010f571fbd9b, 0xa9e6484be549ad00};
+static const uint64_t known[3] = {0x121eb8922d06ab4f, 0x36c4c656a1229a48, 0x02aaf82d452cfb0f};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0x1e50940f4694e401, 0x07de99c3320a8589, 0x5dd574e9b2be43f5};
+static const uint64_t known[3] = {0xf68d4fc8d9975d03, 0x4d8e9a577dfdfd51, 0x46fe4f5d9dd37719};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x5171bdf0a276ddd5, 0x025cefa4d8b46e77, 0xf810d9c8f36053df};
+static const uint64_t known[3] = {0xd03962df88f298b5, 0x0d52e974a8ab885a, 0x5fa8d1582b005faa};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

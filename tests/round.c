@@ -267,7 +267,7 @@ static void it_is_the_least_nearby(void **state)
         }
     }
     printf("the least nearby: found %ld of %d, %ld right above the origin\n", found, PAIRS, exact);
-    assert_true(found > PAIRS * 99 / 100 && exact > found * 98 / 100);
+    assert_true(found > PAIRS * 998 / 1000 && exact >= found * 999 / 1000);
 }
 
 /* Ellipsoids that are all but balls, or all but share their middles, are about as high along all ways, and any sets in
@@ -291,8 +291,27 @@ static void it_is_found_where_all_ways_are_alike(void **state)
         }
     }
     printf("all ways are alike: found %ld, and %ld of any sets, of %d\n", found, edged, PAIRS);
-    assert_true(found > PAIRS * 999 / 1000 - 1 && edged > PAIRS * 97 / 100);
+    assert_true(found > PAIRS * 999 / 1000 - 1 && edged > PAIRS * 999 / 1000 - 1);
 }
+
+#if DIM == 3
+/* Where a cone's edge seems to meet another: it is a curve, and many miss each other. */
+static void it_is_found_beside_edges_that_miss(void **state)
+{
+    long found = 0;
+    (void)state;
+    state_of_draws = 23;
+    for (int k = 0; k < PAIRS; k++) {
+        draw_pair(pub(support_cone), kinds[1 + k % (KINDS - 1)], 0.5);
+        if (find_dip(k % 3 > 0)) {
+            check_that_it_is_least();
+            found++;
+        }
+    }
+    printf("edges that miss: found %ld of %d\n", found, PAIRS);
+    assert_true(found > PAIRS * 997 / 1000);
+}
+#endif
 
 /* What curvature says of heights up to so far from there, an error as large as is said taken off, where cones' edges
  * give such a share of their bow for a kink. */
@@ -374,7 +393,7 @@ static void limbs_that_are_alike_are_one(void **state)
         }
     }
     printf("alike: %ld of %d joined, %ld found, %ld right above the origin\n", joined, PAIRS, found, exact);
-    assert_true(joined > PAIRS * 8 / 10 && found > PAIRS * 9 / 10 && exact > found * 98 / 100);
+    assert_true(joined > PAIRS * 8 / 10 && found > PAIRS * 9 / 10 && exact >= found * 999 / 1000);
 }
 #endif
 
@@ -681,6 +700,7 @@ int main(void)
         cmocka_unit_test(it_is_found_where_all_ways_are_alike),
         cmocka_unit_test(it_is_as_high_as_curvature_says),
 #if DIM == 3
+        cmocka_unit_test(it_is_found_beside_edges_that_miss),
         cmocka_unit_test(limbs_that_are_alike_are_one),
         cmocka_unit_test(edges_of_cones_are_bowed_enough),
         cmocka_unit_test(no_way_is_lower_than_circles_say),

@@ -389,7 +389,8 @@ typedef struct bent {
     int of[ACROSS];         /*   of these limbs, */
     real d[ACROSS][ACROSS]; /*   across, */
     real off[ACROSS];       /*   and how far n is from there; */
-    real share[ACROSS];     /*   what the rows count for */
+    real share[ACROSS];     /*   what the rows count for, */
+    quadric slant[ACROSS];  /*   and how all of a cone's is bowed */
     real sign[MOST_LIMBS];  /* as which straight limbs and cones' count, on slants by their shares as last known */
     real room;              /* see room_of_ball; below 0: it is not told yet */
     real floor;             /* heights are no less, by circles; 0: that is not told */
@@ -409,6 +410,12 @@ static void put_across(vec n, vec e[ACROSS])
     e[0] = mul(a, 1 / length(a));
     e[1] = cross(n, e[0]);
 #endif
+}
+
+static inline void add_quadric(quadric *f, const quadric *g, real k)
+{
+    for (int i = 0; i < ACROSS; i++)
+        for (int j = 0; j <= i; j++) f->c[i][j] += k * g->c[i][j];
 }
 
 static inline void add_square(quadric *f, const real d[ACROSS], real k)
@@ -451,27 +458,30 @@ static void add_straight(bent *b, const limb *l, real here, real sign)
     for (int j = 0; j < ACROSS; j++) b->slope[j] += sign * dot(l->row[0], b->e[j]);
 }
 
-/* The slope of |L n|, and its curvature so many times. */
-static inline void add_round(bent *b, const limb *l, real far, real times, real slope[ACROSS])
+/* The slope of |L n|, and its curvature. */
+static inline quadric add_round(bent *b, const limb *l, real far, real slope[ACROSS])
 {
-    const real per = 1 / far, share = l->size * per, bow = per * times;
+    const real per = 1 / far, share = l->size * per;
+    quadric bow;
     vec g[ACROSS];
     for (int j = 0; j < ACROSS; j++) {
         EACH(g[j].c[i] = dot(l->square[i], b->e[j]));
         slope[j] = dot(g[j], b->n) * per;
     }
     for (int i = 0; i < ACROSS; i++)
-        for (int j = 0; j <= i; j++) b->bow.c[i][j] += bow * (dot(g[j], b->e[i]) - slope[i] * slope[j]);
+        for (int j = 0; j <= i; j++) bow.c[i][j] = per * (dot(g[j], b->e[i]) - slope[i] * slope[j]);
     b->slope_off += share * (32 * UNIT * l->size + 4 * l->askew);
     b->bow_off += share * share * (512 * UNIT * l->size + 16 * l->askew);
     b->sway = larger(share, b->sway);
+    return bow;
 }
 
 static void add_whole(bent *b, const limb *l, real far)
 {
     real slope[ACROSS];
+    const quadric bow = add_round(b, l, far, slope);
     b->height += far;
-    add_round(b, l, far, 1, slope);
+    add_quadric(&b->bow, &bow, 1);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += slope[j];
 }
 
@@ -496,19 +506,17 @@ static void add_above(bent *b, const limb *l, const bearing *v)
     real slope[ACROSS];
     b->height += v->here;
     count_off(b, -v->here, 16 * UNIT * l->steep);
-    add_round(b, l, v->far, 1, slope);
+    const quadric bow = add_round(b, l, v->far, slope);
+    add_quadric(&b->bow, &bow, 1);
     for (int j = 0; j < ACROSS; j++) b->slope[j] += slope[j] + dot(l->lean, b->e[j]);
 }
 
 /* Where n is to lie between these, for half of it, and its share of the other half. */
 static void add_slant(bent *b, const limb *l, const bearing *v, int at)
 {
-    const quadric before = b->bow;
-    const real share = (1 + b->sign[at]) / 2, least = smaller(share, 1 - share), given = share > 0 ? least / share : 0;
     real slope[ACROSS];
-    add_round(b, l, v->far, share, slope);
-    for (int i = 0; i < ACROSS; i++)
-        for (int j = 0; j <= i; j++) b->part.c[i][j] += (b->bow.c[i][j] - before.c[i][j]) * given;
+    b->slant[b->rows] = add_round(b, l, v->far, slope);
+    add_quadric(&b->bow, &b->slant[b->rows], (1 + b->sign[at]) / 2);
     b->of[b->rows] = at;
     b->off[b->rows] = v->here / 2;
     for (int j = 0; j < ACROSS; j++) {
@@ -574,7 +582,7 @@ static inline real length_across(const real t[ACROSS])
 
 /* So often a direction is turned toward it, by so much at most. */
 #define ROLLS 24
-#define ROLL ((real)0.5)
+#define ROLL ((real)0.625)
 
 static inline int is_all_but_level(real slope, real height) { return size(slope) < (real)0x1p-10 * height; }
 
@@ -714,7 +722,9 @@ typedef struct rolling {
     unsigned edges, slants; /* on which n is to lie */
     unsigned shut;          /* whose points it is to lie on no more */
     int left, held;         /* the limb just let go, and one that is not to be let go again; -1: none */
+    int met;                /* the limb whose edge was met last */
     real most, last;        /* how far a roll leads at most, and the height before it */
+    real missed;            /* so far was where edges meet before it */
 } rolling;
 
 static void start_rolling(rolling *s, const bulk *of, vec n)
@@ -723,8 +733,9 @@ static void start_rolling(rolling *s, const bulk *of, vec n)
     s->n = n;
     s->edges = s->slants = s->shut = 0;
     s->left = s->held = -1;
+    s->met = -1;
     s->most = ROLL;
-    s->last = REAL_MAX;
+    s->last = s->missed = REAL_MAX;
     for (int i = 0; i < of->limbs; i++) s->sign[i] = dot(of->limb[i].row[0], n) < 0 ? -1 : 1;
 }
 
@@ -735,7 +746,7 @@ static inline void start_bend(const rolling *s, bent *b)
     put_across(s->n, b->e);
     b->height = dot(s->of->middle, s->n);
     for (int j = 0; j < ACROSS; j++) b->slope[j] = dot(s->of->middle, b->e[j]);
-    b->bow = b->kink = b->part = b->rim = (quadric){{{0}}};
+    b->bow = (quadric){{{0}}};
     b->slope_off = 32 * UNIT;
     b->bow_off = b->kink_off = b->height_off = b->sway = b->floor = 0;
     b->room = -1;
@@ -819,12 +830,15 @@ static meeting limb_met(const rolling *s, const bent *b, vec turn)
 /* What edges add. A cone's are bowed, and have a kink for what of that they give. */
 static void add_kinks(const bulk *of, bent *b)
 {
+    b->kink = b->part = b->rim = (quadric){{{0}}};
     for (int r = 0; r < b->rows; r++) {
         const limb *l = &of->limb[b->of[r]];
         const real steep = 1 - share_of_limb(b, b->of[r]);
         for (int j = 0; j < ACROSS; j++) b->slope[j] += b->share[r] * b->d[r][j];
-        if (is_on_slant(b, b->of[r])) add_square(&b->rim, b->d[r], 4 * steep / l->steep);
-        else add_square(&b->kink, b->d[r], 2 * steep / l->size);
+        if (is_on_slant(b, b->of[r])) {
+            add_square(&b->rim, b->d[r], 4 * steep / l->steep);
+            add_quadric(&b->part, &b->slant[r], steep / 2);
+        } else add_square(&b->kink, b->d[r], 2 * steep / l->size);
     }
 }
 
@@ -854,14 +868,17 @@ static inline real change_along(const bent *b, const real t[ACROSS])
     return sum;
 }
 
+/* Whether n is hardly off the edge that it is to lie on, if any. */
+static inline int is_by_its_edge(const bent *b)
+{
+    const real l = b->rows ? length_across(b->d[0]) : 0;
+    return b->rows == 0 || b->off[0] * b->off[0] <= 4 * UNIT * (l * l);
+}
+
 /* No more is to be had by the turn t, so far, than roundings are. */
 static int is_at_rest(const bent *b, const real t[ACROSS], real far)
 {
-    for (int r = 0; r < b->rows; r++) {
-        const real off = is_on_slant(b, b->of[r]) ? b->share[r] - b->sign[b->of[r]] : 0;
-        if (off * off > 4 * UNIT) return 0;
-    }
-    if (b->rows < ACROSS && size(change_along(b, t)) <= 4 * UNIT * far) return 1;
+    if (b->rows < ACROSS && size(change_along(b, t)) <= 4 * UNIT * far) return is_by_its_edge(b);
     const real bent_by = far * b->sway; /* so much of the bow may have changed on the way, and with it the next turn */
     return far <= 16 * UNIT || (far * far <= 4 * UNIT && bent_by * bent_by <= 4096 * UNIT);
 }
@@ -884,14 +901,40 @@ static int let_go(rolling *s, const bent *b)
     return 1;
 }
 
-/* The shares of slants, for the curvature there. */
-static inline void keep_shares(rolling *s, const bent *b)
-{
-    for (int r = 0; r < b->rows; r++)
-        if (is_on_slant(b, b->of[r])) s->sign[b->of[r]] = larger(-1, smaller(1, b->share[r]));
-}
-
 enum rolled { ROLLS_ON, RESTS, STRAYS };
+
+#if DIM == 3
+/* A turn along the cones' edges on which n is to lie leaves these by what they bend: back to each, square to it. */
+static inline void keep_to_slants(rolling *s)
+{
+    for (int i = 0; i < s->of->limbs && s->slants; i++) {
+        if (!(s->slants >> i & 1)) continue;
+        const limb *l = &s->of->limb[i];
+        const bearing v = bearing_of(l, s->n);
+        const vec way = add(l->lean, mul(add(mul(l->row[0], v.along.c[0]), mul(l->row[1], v.along.c[1])), 1 / v.far));
+        s->n = sub(s->n, mul(way, v.here / dot(way, way)));
+    }
+}
+#else
+#define keep_to_slants(s) (void)0
+#endif
+
+/* Edges may seem to meet that do not, as a cone's is a curve: n is to come near where they do, or leaves the one met
+ * last. 0: it comes near. */
+static int miss_corner(rolling *s, const bent *b, real far)
+{
+    if (ACROSS < 2 || b->rows < ACROSS) {
+        s->missed = REAL_MAX;
+        return 0;
+    }
+    if (2 * far < s->missed || far * far <= 4 * UNIT) {
+        s->missed = far;
+        return 0;
+    }
+    s->edges &= ~(1u << s->met);
+    s->slants &= ~(1u << s->met);
+    return 1;
+}
 
 /* One roll, by the turn t. STRAYS: it has no end. */
 static enum rolled roll_by(rolling *s, const bent *b, real t[ACROSS])
@@ -899,15 +942,19 @@ static enum rolled roll_by(rolling *s, const bent *b, real t[ACROSS])
     const real far = length_across(t), share = far > s->most ? s->most / far : 1;
     if (!(far <= REAL_MAX)) return STRAYS;
     if ((b->rows < ACROSS || far * far <= 4 * UNIT) && let_go(s, b)) return ROLLS_ON;
-    keep_shares(s, b);
+    if (miss_corner(s, b, far)) return ROLLS_ON;
     for (int j = 0; j < ACROSS; j++) t[j] *= share;
     const vec turn = turn_of(b, t);
     const meeting m = limb_met(s, b, turn);
-    if (m.limb >= 0) s->edges |= 1u << m.limb;
+    if (m.limb >= 0) {
+        s->edges |= 1u << m.limb;
+        s->met = m.limb;
+    }
     if (m.slant) s->slants |= 1u << m.limb;
     s->held = m.limb == s->left && m.part * far <= 64 * UNIT ? s->left : -1;
     s->left = -1;
     s->n = add(s->n, mul(turn, m.part));
+    if (b->rows < ACROSS) keep_to_slants(s);
     s->n = mul(s->n, 1 / length(s->n));
     return m.limb < 0 && is_at_rest(b, t, far) ? RESTS : ROLLS_ON;
 }
@@ -933,6 +980,20 @@ static int return_to_slant(rolling *s, bent *b)
 }
 #endif
 
+/* The height is bowed as slants share now. 0: that is as before. */
+static inline int take_shares(rolling *s, bent *b)
+{
+    int r = 0;
+    for (int k = 0; k < b->rows; k++) {
+        real *sign = &b->sign[b->of[k]], here = larger(-1, smaller(1, b->share[k]));
+        if (!is_on_slant(b, b->of[k]) || here == *sign) continue;
+        add_quadric(&b->bow, &b->slant[k], (here - *sign) / 2);
+        s->sign[b->of[k]] = *sign = here;
+        r = 1;
+    }
+    return r;
+}
+
 /* What there is where n has come to rest, its edges' shares and kinks with it. 0: they do not hold it. The last turn
  * led along what is a curve on a cone, and so off its edge by what that bends. */
 static int come_to_rest(rolling *s, bent *b)
@@ -944,6 +1005,7 @@ static int come_to_rest(rolling *s, bent *b)
     for (int i = 0; i < 2 && return_to_slant(s, b); i++) bend(s, b);
 #endif
     roll(b, s->most, t);
+    take_shares(s, b);
     for (int r = 0; r < b->rows; r++) /* as the curvature has them */
         if (is_on_slant(b, b->of[r])) b->share[r] = b->sign[b->of[r]];
     add_kinks(s->of, b);
@@ -953,9 +1015,10 @@ static int come_to_rest(rolling *s, bent *b)
 /* The next turn. */
 static inline void aim(rolling *s, bent *b, real t[ACROSS])
 {
-    s->most = b->height > s->last + 64 * UNIT ? s->most / 2 : smaller((real)1.25 * s->most, ROLL);
+    s->most = b->height > s->last + 64 * UNIT ? s->most / 2 : smaller((real)1.125 * s->most, ROLL);
     s->last = b->height;
     roll(b, s->most, t);
+    if (b->slants && take_shares(s, b)) roll(b, s->most, t);
 }
 
 /* So near to a way where heights are known to be the least nearby a direction is given up. */
