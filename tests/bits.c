@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x0160875d70035c77, 0x3dbc2851392e56c0, 0x3846d96d0233d14b};
+static const uint64_t known[3] = {0x0068c7100a52d43e, 0x5f982e609b2c2620, 0xff990d86968bcfe6};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0x121eb8922d06ab4f, 0x36c4c656a1229a48, 0x02aaf82d452cfb0f};
+static const uint64_t known[3] = {0xf5cdda6920206129, 0xaf4da97594e4e55d, 0xdb6ec995e8632772};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
-static const uint64_t known[3] = {0xf68d4fc8d9975d03, 0x4d8e9a577dfdfd51, 0x46fe4f5d9dd37719};
+static const uint64_t known[3] = {0xd21dea2afb8d2d1a, 0xa0618e74e740d4bd, 0x2798a1ca31a9b3bf};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0xd03962df88f298b5, 0x0d52e974a8ab885a, 0x5fa8d1582b005faa};
+static const uint64_t known[3] = {0x1d2279c7b6c22ef0, 0x29ff7100e0ad5ddb, 0x25178c612264ba96};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

@@ -1628,6 +1628,54 @@ static void sharing_middles(void **state)
     }
 }
 
+/* What is small, or next to nothing, about the middle of a ball, whose map rounds: the ball's radius and how deep its
+ * middle is in the other, no more. Of no facets is so much to be had, as all ways are about as short. */
+static void amid_balls(void **state)
+{
+    static const enum kind kinds[] = {
+        BOX,
+        ELLIPSOID,
+#if DIM == 3
+        CYLINDER
+#endif
+    };
+    double widest = 0;
+    (void)state;
+    for (at = 0; at < 4 * pairs_per_family; at++) {
+        V(result) r;
+        draws d = draws_from(seed, 2029, (uint64_t)at);
+        const enum kind kind = kinds[at % (long)(sizeof kinds / sizeof *kinds)];
+        const double small = VARIANT_FLOAT ? magnitude(&d, -6, -1) : magnitude(&d, -13, -1);
+        double least = DBL_MAX;
+        draw_any(&d, &drawn.a, BALL);
+        draw_any(&d, &drawn.b, kind);
+        memset(drawn.a.pose.p, 0, sizeof drawn.a.pose.p);
+        memset(drawn.b.pose.p, 0, sizeof drawn.b.pose.p);
+        for (int i = 0; i < DIM; i++) {
+            drawn.b.half[i] = (real)((double)drawn.b.half[i] * small);
+            least = fmin(least, (double)drawn.b.half[i]);
+        }
+        drawn.b.radius = (real)((double)drawn.b.radius * small);
+        drawn.b.half_length = (real)((double)drawn.b.half_length * small);
+        if (kind == CYLINDER) {
+            const double round = (double)drawn.b.radius, half = (double)drawn.b.half_length;
+            least = fmin(round, half);
+            if (fmax(round, half) < 1.1 * least) {
+                continue; /* all around about as short as along the axis */
+            }
+        }
+        bind_pair(&drawn);
+        p = &drawn;
+        ask(NULL, &r);
+        widest = fmax(widest, in_u((quad)width_of(&r), span()));
+        expect_answer("the depth is not the radius and that of the middle", &r,
+                      fabs((double)r.value + (double)drawn.a.radius + least) <= 24 * U * span());
+        /* of an ellipsoid that is all but round as many ways out of its middle are as short */
+        expect_answer("it is left open", &r, width_of(&r) <= (kind == ELLIPSOID ? 1024 : 64) * U * span());
+    }
+    printf("%-6s amid balls: widest bracket %.0f u\n", VARIANT, widest);
+}
+
 #if DIM == 3
 /* Ellipsoids next to balls, of which the usual room is full before the surface is done: what an ellipsoid within proves
  * of all ways is taken with its own points. */
@@ -2812,6 +2860,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(all_but_concentric),
         cmocka_unit_test(with_hardly_any_room),
         cmocka_unit_test(sharing_middles),
+        cmocka_unit_test(amid_balls),
         cmocka_unit_test(share_below_a_number),
         cmocka_unit_test(said_to_reach_far),
         cmocka_unit_test(hardly_thicker_than_rounding),

@@ -316,6 +316,8 @@ static void must_be_same(const pair *p, const answers *x, const answers *y, int 
     }
 }
 
+static int may_be_a_ball(const body *b) { return b->kind == ELLIPSOID || b->kind == BALL; }
+
 static void compare(const pair *p, const answers *plain, int set, int map)
 {
     static pair other;
@@ -329,6 +331,9 @@ static void compare(const pair *p, const answers *plain, int set, int map)
         world.least + set + map < LEAST_EXPONENT || world.most + set + map > MOST_EXPONENT ||
         maps.least + map < LEAST_EXPONENT || maps.most + map > MOST_EXPONENT) {
         return;
+    }
+    if ((may_be_a_ball(&p->a) || may_be_a_ball(&p->b)) && own.most + set + maps.most + map > MOST_EXPONENT - 5) {
+        return; /* it counts as one up to the largest radius, 1/16 of the largest number */
     }
     resize_pair(&other, p, set, map);
     ask_all(&other, set, map, &y);

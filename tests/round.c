@@ -517,6 +517,13 @@ static void all_ways_are_as_high_as_told(void **state)
     assert_true(told > PAIRS && aside > PAIRS / 8);
 }
 
+/* A ball is a point and a radius, and walks as these do where the other has corners, or is one as well. */
+static int is_ball_by(int i, int j)
+{
+    support_fn *const f = shapes[j].support;
+    return shapes[i].support == pub(support_ball) && (f == pub(support_ball) || are_cornered(f));
+}
+
 /* The gap of round bodies is found by one corner more than the first, as a rule. */
 static void a_gap_needs_no_walk(void **state)
 {
@@ -527,7 +534,7 @@ static void a_gap_needs_no_walk(void **state)
         result r = {0};
         draw_any_pair(k, 4);
         assert_int_equal(pub(distance)(&shapes[0], &shapes[1], NULL, &r), GJK_OK);
-        if (!(r.lower > 0) || (shapes[0].support == pub(support_ball) && shapes[1].support == pub(support_ball))) {
+        if (!(r.lower > 0) || is_ball_by(0, 1) || is_ball_by(1, 0)) {
             continue;
         }
         apart++;

@@ -399,6 +399,93 @@ static void ellipsoids_as_balls(void **state)
     }
 }
 
+/* A turn by right angles, mirrored or not, times a power of two. */
+static void draw_quarter_turn(draws *d, real m[DIM * DIM], int power)
+{
+    const int first = below(d, DIM), step = 1 + below(d, DIM - 1);
+    memset(m, 0, DIM * DIM * sizeof *m);
+    for (int i = 0; i < DIM; i++) {
+        m[i * DIM + (first + i * step) % DIM] = (real)ldexp(below(d, 2) ? 1 : -1, power);
+    }
+}
+
+static int is_same_answer(const V(result) * r, const V(result) * s)
+{
+    int same = r->status == s->status && r->value == s->value && r->lower == s->lower && r->upper == s->upper;
+    for (int i = 0; i < DIM; i++) {
+        same &= r->point_a[i] == s->point_a[i] && r->point_b[i] == s->point_b[i] && r->normal[i] == s->normal[i];
+    }
+    return same && r->steps == s->steps && r->supports == s->supports;
+}
+
+/* A ball is a point and a radius, to the bit, in whatever unit its map has it, and whichever of its axes has which. */
+static void balls_as_points(void **state)
+{
+    long deep = 0;
+    (void)state;
+    for (uint64_t i = 0; i < 2000; i++) {
+        draws d = draws_from(8, 0, i);
+        pair p;
+        V(pose) turned, straight;
+        V(result) r, s;
+        const int power = below(&d, 9) - 4, a_ball = below(&d, 2);
+        const real radius = (real)between(&d, 0.2, 1);
+        real radii[DIM];
+        draw_pair(&d, i % FAMILIES, &p);
+        bind_pair(&p);
+        draw_quarter_turn(&d, turned.m, -power);
+        memset(&straight, 0, sizeof straight);
+        for (int j = 0; j < DIM; j++) {
+            const int longer = below(&d, 4);
+            turned.p[j] = straight.p[j] = p.b.pose.p[j] + (real)between(&d, -1, 1);
+            straight.m[j * (DIM + 1)] = 1;
+            radii[j] = (real)ldexp((double)radius, power + (a_ball ? 0 : longer));
+            for (int k = 0; k < DIM && !a_ball; k++) turned.m[k * DIM + j] *= (real)ldexp(1, -longer);
+        }
+        const V(shape) ball = {a_ball ? V(support_ball) : V(support_ellipsoid), radii, &turned, 0};
+        const V(shape) point = {V(support_origin), NULL, &straight, radius};
+        V(distance)(&ball, &p.b.shape, NULL, &r);
+        V(distance)(&point, &p.b.shape, NULL, &s);
+        assert_true(is_same_answer(&r, &s));
+        V(intersect)(&p.b.shape, &ball, NULL, &r);
+        V(intersect)(&p.b.shape, &point, NULL, &s);
+        assert_true(is_same_answer(&r, &s));
+        V(penetration)(&ball, &p.b.shape, NULL, &r);
+        V(penetration)(&point, &p.b.shape, NULL, &s);
+        assert_true(is_same_answer(&r, &s));
+        deep += r.upper < 0;
+    }
+    assert_true(deep > 100);
+}
+
+/* What the map's roundings, or what is hardly more, make of a ball is in the bracket: a point on an axis, which they
+ * leave longer or shorter by so much. */
+static void hardly_balls(void **state)
+{
+    const V(ball) ball = {(real)0.7};
+    (void)state;
+    for (int k = -24; k <= 24; k++) {
+        for (int axis = 0; axis < DIM; axis++) {
+            V(pose) of_ball, of_point;
+            V(result) r;
+            memset(&of_ball, 0, sizeof of_ball);
+            memset(&of_point, 0, sizeof of_point);
+            for (int j = 0; j < DIM; j++) of_ball.m[j * (DIM + 1)] = of_point.m[j * (DIM + 1)] = 1;
+            of_ball.m[axis * (DIM + 1)] += (real)(k * (k < 0 ? U : 2 * U));
+            for (int inside = 0; inside < 2; inside++) {
+                of_point.p[axis] = (real)(inside ? 0.65 : 3);
+                const V(shape) a = {V(support_ball), &ball, &of_ball, 0}, b = {V(support_origin), NULL, &of_point, 0};
+                const quad apart = (quad)of_point.p[axis] - (quad)ball.radius * (quad)of_ball.m[axis * (DIM + 1)];
+                assert_true(V(penetration)(&a, &b, NULL, &r) >= 0);
+                assert_true((quad)r.lower <= apart && apart <= (quad)r.upper);
+                assert_true((double)(r.upper - r.lower) <= 160 * U);
+                assert_true(V(distance)(&b, &a, NULL, &r) >= 0);
+                assert_true(inside ? r.upper == 0 : (quad)r.lower <= apart && apart <= (quad)r.upper);
+            }
+        }
+    }
+}
+
 static void origin(void **state)
 {
     real dir[DIM] = {1}, point[DIM];
@@ -740,6 +827,8 @@ int main(void)
         cmocka_unit_test(thin_ellipsoids),
         cmocka_unit_test(ellipsoid_along_nothing),
         cmocka_unit_test(ellipsoids_as_balls),
+        cmocka_unit_test(balls_as_points),
+        cmocka_unit_test(hardly_balls),
         cmocka_unit_test(rounded_ellipsoids),
         cmocka_unit_test(origin),
 #if DIM == 3

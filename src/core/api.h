@@ -3,6 +3,7 @@
 #ifndef GJK_CORE_API_H
 #define GJK_CORE_API_H
 
+#include "balls.h"
 #include "everyday.h"
 
 /* ---- options ---- */
@@ -88,16 +89,23 @@ HOT int tell_plainly(search *q, const shape *a, const shape *b, const options *o
     return (!deep || (DIM == 2 && HAS_SISTER)) && tell_at_once(q, a, b, o, sign_only, deep, r);
 }
 
+/* Whether either may be a ball, to stand as a point. A slack is in the balls' own unit, which points have not. */
+static inline int may_have_balls(const shape *a, const shape *b, const options *o)
+{
+    return a && b && (may_be_ball(a) || may_be_ball(b)) && (!o || (o->size == sizeof *o && o->slack == 0));
+}
+
 /* ---- how far apart ---- */
 
-/* The radius in it, the bracket may be this wide and still be as tight as rounding allows. */
-static int tight_enough(const result *r, const difference *d, real radius, real level)
+/* The radius in it, and off, the bracket may be this wide and still be as tight as rounding allows. */
+static int tight_enough(const result *r, const difference *d, real radius, real off, real level)
 {
-    real rounding = (4 * d->doubt + 2 * d->slack) * (level * d->unscale) + 16 * UNIT * (radius * level);
+    real rounding = (4 * d->doubt + 2 * d->slack) * (level * d->unscale) + (16 * UNIT * radius + 2 * off) * level;
     return (r->upper - r->lower) * level <= rounding;
 }
 
-static int distance_status(const result *r, const options *o, enum end end, const search *q, real radius, int deep)
+static int distance_status(const result *r, const options *o, enum end end, const search *q, real radius, real off,
+                           int deep)
 {
     int tolerant = o->abs_tol > 0 || o->rel_tol > 0;
     if (o->cutoff > 0 && r->lower > o->cutoff) return GJK_DECIDED;
@@ -105,11 +113,11 @@ static int distance_status(const result *r, const options *o, enum end end, cons
     real level = level_of(&q->d, radius, 0);
     if (narrow(r, o, deep) || end == WITHIN) return GJK_OK;
     if (end == OPEN) return GJK_LIMIT;
-    return !tolerant && tight_enough(r, &q->d, radius, level) ? GJK_OK : GJK_FLOOR;
+    return !tolerant && tight_enough(r, &q->d, radius, off, level) ? GJK_OK : GJK_FLOOR;
 }
 
-/* What is asked where the bracket is to be narrow. */
-static goal goal_of(const search *q, const shape *a, const shape *b, const options *o)
+/* What is asked where the bracket is to be narrow, and the shapes are off by so much. */
+static goal goal_of(const search *q, const shape *a, const shape *b, real off, const options *o)
 {
     goal g = {.beyond = REAL_MAX,
               .within = -1,
@@ -120,11 +128,22 @@ static goal goal_of(const search *q, const shape *a, const shape *b, const optio
               .exact = are_exact(q, a, b, o),
               .max_steps = (int)o->max_steps};
     if (o->cutoff > 0) g.beyond = (o->cutoff + g.radius) * (1 + 16 * UNIT);
+    if (g.early) g.abs_tol -= 2 * off;
     return g;
 }
 
-/* The whole answer, of any bodies, whatever is asked. */
-static WHOLE int answer_distance(search *q, const shape *a, const shape *b, const options *given, result *out)
+/* The shapes are off what they stand for by this. */
+static inline void widen_by(result *r, real off)
+{
+    if (!(off > 0)) return;
+    r->lower -= off;
+    r->upper += off;
+    r->lower -= size(r->lower) * (2 * UNIT) + TINY;
+    r->upper += size(r->upper) * (2 * UNIT) + TINY;
+}
+
+/* The whole answer, of any bodies, whatever is asked; of such that are off by so much. */
+static WHOLE int answer_distance(search *q, const shape *a, const shape *b, real off, const options *given, result *out)
 {
     options own;
     const options *o = read_options(&own, given);
@@ -132,7 +151,7 @@ static WHOLE int answer_distance(search *q, const shape *a, const shape *b, cons
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
     q->lent = UNTRIED;
     list_both(q, a, b, o);
-    goal g = goal_of(q, a, b, o);
+    goal g = goal_of(q, a, b, off, o);
     if (g.radius > 0) {
         g.within = g.radius * (1 - 16 * UNIT);
         g.early = 1;
@@ -141,19 +160,30 @@ static WHOLE int answer_distance(search *q, const shape *a, const shape *b, cons
     enum end end;
     int bad = reply_to(q, a, b, o, &g, &end, &r);
     if (bad) return bad;
+    widen_by(&r, off);
     r.upper = larger(r.upper, 0);
     r.lower = larger(r.lower, 0);
     r.value = smaller(larger(r.value, r.lower), r.upper);
-    r.status = distance_status(&r, o, end, q, g.radius, 0);
+    r.status = distance_status(&r, o, end, q, g.radius, off, 0);
     *out = r;
     return r.status;
+}
+
+/* The same of what may be balls. */
+static APART int answer_distance_of_balls(search *q, const shape *a, const shape *b, const options *given, result *out)
+{
+    pointed k;
+    const int some = take_balls(&k, a, b, ROUNDED_BALL);
+    if (some && k.off == 0 && tell_plainly(q, k.a, k.b, given, 0, 0, out)) return out->status = GJK_OK;
+    return answer_distance(q, k.a, k.b, k.off, given, out);
 }
 
 GJK_API int pub(distance)(const shape *a, const shape *b, const options *given, result *out)
 {
     search q;
     if (tell_plainly(&q, a, b, given, 0, 0, out)) return out->status = GJK_OK;
-    return answer_distance(&q, a, b, given, out);
+    if (may_have_balls(a, b, given)) return answer_distance_of_balls(&q, a, b, given, out);
+    return answer_distance(&q, a, b, 0, given, out);
 }
 
 /* ---- whether they meet ---- */
@@ -244,6 +274,14 @@ static WHOLE int answer_intersect(search *q, const shape *a, const shape *b, con
     return r.status;
 }
 
+/* The same of what may be balls; but for what is off, the verdict would be. */
+static APART int answer_intersect_of_balls(search *q, const shape *a, const shape *b, const options *given, result *out)
+{
+    pointed k;
+    if (take_balls(&k, a, b, 0) && tell_plainly(q, k.a, k.b, given, 1, 0, out)) return out->status = GJK_DECIDED;
+    return answer_intersect(q, k.a, k.b, given, out);
+}
+
 GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given, result *out)
 {
     search q;
@@ -255,6 +293,7 @@ GJK_API int pub(intersect)(const shape *a, const shape *b, const options *given,
         q.glanced = glance_at_plain_boxes(&q, (int)steps_of(given), a, b, out);
     if (q.glanced == TELLING) return out->status = GJK_DECIDED;
     if (q.glanced == UNTRIED && tell_plainly(&q, a, b, given, 1, 0, out)) return out->status = GJK_DECIDED;
+    if (may_have_balls(a, b, given)) return answer_intersect_of_balls(&q, a, b, given, out);
     return answer_intersect(&q, a, b, given, out);
 }
 
@@ -283,21 +322,23 @@ static real off_the_ends(const result *r)
 }
 
 /* The whole answer of bodies as they are said to be, into r. Returns its status; a mistake leaves r alone. */
-static int fathom_both(search *q, const shape *a, const shape *b, const options *o, result *r)
+static int fathom_both(search *q, const shape *a, const shape *b, real off, const options *o, result *r)
 {
     q->lent = UNTRIED;
     list_both(q, a, b, o);
-    goal g = goal_of(q, a, b, o);
+    goal g = goal_of(q, a, b, off, o);
     g.deep = 1;
     g.tight = g.exact && o->tight;
 
     enum end end;
     int bad = reply_to(q, a, b, o, &g, &end, r);
     if (bad) return bad;
+    widen_by(r, off);
     r->lower = larger(r->lower, -REAL_MAX); /* any slack may have been taken off */
     r->value = smaller(larger(r->value, r->lower), r->upper);
     if (g.tight && r->upper < 0) r->value = off_the_ends(r);
-    r->status = distance_status(r, o, end, q, g.radius, 1);
+    if (!(off <= 32 * UNIT * g.radius)) off = 0; /* no rounding */
+    r->status = distance_status(r, o, end, q, g.radius, off, 1);
     if (g.tight && r->status == GJK_OK && !narrow(r, o, 1) && !is_to_last_place(r)) r->status = GJK_FLOOR;
     return r->status;
 }
@@ -325,7 +366,8 @@ static const shape *by_own_reach(const shape *s, measured *own)
 }
 
 /* How deep, once more where that is told in a frame that is far too large, if there are steps for it. */
-static APART void fathom_by_own_reaches(search *q, const shape *a, const shape *b, const options *o, result *r)
+static APART void fathom_by_own_reaches(search *q, const shape *a, const shape *b, real off, const options *o,
+                                        result *r)
 {
     measured of_a, of_b;
     options left = *o;
@@ -335,31 +377,67 @@ static APART void fathom_by_own_reaches(search *q, const shape *a, const shape *
     left.max_steps -= (uint32_t)r->steps;
     left.cache = NULL; /* which is to know the caller's own */
     q->thin = q->planar = q->flat = UNTRIED;
-    const int status = fathom_both(q, x, y, &left, &again);
+    const int status = fathom_both(q, x, y, off, &left, &again);
     if (status < 0 || status == GJK_LIMIT || again.lower > 0) return;
     again.steps += r->steps;
     again.supports += r->supports;
     *r = again;
 }
 
-static int answer_penetration(search *q, const shape *a, const shape *b, const options *given, result *out)
+/* The same of what may be balls. Where the way out of what is round is not found, those that their maps leave balls by
+ * and large stand as points once more; a quarter of the steps is kept for that. */
+static APART int fathom_round_or_points(search *q, const shape *a, const shape *b, real off, const options *o,
+                                        result *r)
+{
+    pointed k;
+    options part = *o;
+    result again;
+    if (!take_balls(&k, a, b, (real)0x1p-10)) return fathom_both(q, a, b, off, o, r);
+    part.max_steps -= o->max_steps / 4;
+    const int status = fathom_both(q, a, b, off, &part, r);
+    if (status != GJK_LIMIT || r->lower > 0 || r->steps >= (int)o->max_steps) return status;
+    part.max_steps = o->max_steps - (uint32_t)r->steps;
+    part.cache = NULL; /* which is to know the caller's own */
+    q->thin = q->planar = q->flat = UNTRIED;
+    if (fathom_both(q, k.a, k.b, off + k.off, &part, &again) < 0) return status;
+    if (!(again.upper - again.lower < r->upper - r->lower)) return status;
+    again.steps += r->steps;
+    again.supports += r->supports;
+    *r = again;
+    return r->status;
+}
+
+/* The whole answer; of bodies that are off by so much. */
+static int answer_penetration(search *q, const shape *a, const shape *b, real off, const options *given, result *out)
 {
     options own;
     const options *o = read_options(&own, given);
     result r;
     if (!o || !out || !a || !b || !has_workspace(o)) return GJK_BAD_ARGUMENT;
-    const int bad = fathom_both(q, a, b, o, &r);
+    const int bad =
+        may_have_balls(a, b, o) ? fathom_round_or_points(q, a, b, off, o, &r) : fathom_both(q, a, b, off, o, &r);
     if (bad < 0) return bad;
-    if (!(r.lower > 0)) fathom_by_own_reaches(q, a, b, o, &r);
+    if (!(r.lower > 0)) fathom_by_own_reaches(q, a, b, off, o, &r);
     *out = r;
     return r.status;
+}
+
+/* The same of what may be balls. */
+static APART int answer_penetration_of_balls(search *q, const shape *a, const shape *b, const options *given,
+                                             result *out)
+{
+    pointed k;
+    const int some = take_balls(&k, a, b, ROUNDED_BALL);
+    if (some && k.off == 0 && tell_plainly(q, k.a, k.b, given, 0, 1, out)) return out->status = GJK_OK;
+    return answer_penetration(q, k.a, k.b, k.off, given, out);
 }
 
 GJK_API int pub(penetration)(const shape *a, const shape *b, const options *given, result *out)
 {
     search q;
     if (tell_plainly(&q, a, b, given, 0, 1, out)) return out->status = GJK_OK;
-    return answer_penetration(&q, a, b, given, out);
+    if (may_have_balls(a, b, given)) return answer_penetration_of_balls(&q, a, b, given, out);
+    return answer_penetration(&q, a, b, 0, given, out);
 }
 #endif
 

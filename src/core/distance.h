@@ -387,6 +387,7 @@ static enum end judge(const search *q, const goal *g)
 {
     real weight[DIM + 1], upper = root(q->vv) + q->d.doubt, asked = asked_of(g, upper);
     if (upper < g->within && certify(q, weight) < g->within) return WITHIN;
+    if (g->deep && g->radius > 0 && !(upper < g->radius || q->lower > g->radius)) return OPEN; /* that is to be told */
     return upper - q->lower <= asked && certify(q, weight) - q->lower <= asked ? CLOSE : OPEN;
 }
 
