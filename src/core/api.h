@@ -337,8 +337,9 @@ static int fathom_both(search *q, const shape *a, const shape *b, real off, cons
     r->lower = larger(r->lower, -REAL_MAX); /* any slack may have been taken off */
     r->value = smaller(larger(r->value, r->lower), r->upper);
     if (g.tight && r->upper < 0) r->value = off_the_ends(r);
-    if (!(off <= 32 * UNIT * g.radius)) off = 0; /* no rounding */
     r->status = distance_status(r, o, end, q, g.radius, off, 1);
+    const int is_rounding = off <= 32 * UNIT * g.radius;
+    if (!is_rounding && r->status == GJK_OK && !narrow(r, o, 1)) r->status = GJK_FLOOR;
     if (g.tight && r->status == GJK_OK && !narrow(r, o, 1) && !is_to_last_place(r)) r->status = GJK_FLOOR;
     return r->status;
 }
