@@ -89,6 +89,10 @@ HOT int tell_plainly(search *q, const shape *a, const shape *b, const options *o
     return (!deep || (DIM == 2 && HAS_SISTER)) && tell_at_once(q, a, b, o, sign_only, deep, r);
 }
 
+/* How far off, times its size, a ball is that a rounded turn makes, to stand as a point at once. In float the sister
+ * has more digits than that would leave. */
+#define ROUNDED_BALL (HAS_SISTER ? 0 : 12 * UNIT)
+
 /* Whether either may be a ball, to stand as a point. A slack is in the balls' own unit, which points have not. */
 static inline int may_have_balls(const shape *a, const shape *b, const options *o)
 {
@@ -344,6 +348,21 @@ static int fathom_both(search *q, const shape *a, const shape *b, real off, cons
     return r->status;
 }
 
+/* Bodies as they are said to be otherwise, once more, by the steps that are left: r is what took the others. There are
+ * some. */
+static int fathom_again(search *q, const shape *a, const shape *b, real off, const options *o, const result *r,
+                        result *again)
+{
+    options left = *o;
+    left.max_steps -= (uint32_t)r->steps;
+    left.cache = NULL; /* which is to know the caller's own */
+    q->thin = q->planar = q->flat = UNTRIED;
+    const int status = fathom_both(q, a, b, off, &left, again);
+    again->steps += r->steps;
+    again->supports += r->supports;
+    return status;
+}
+
 /* A cloud whose reach is told anew. */
 typedef struct measured {
     shape s;
@@ -371,18 +390,11 @@ static APART void fathom_by_own_reaches(search *q, const shape *a, const shape *
                                         result *r)
 {
     measured of_a, of_b;
-    options left = *o;
     const shape *x = by_own_reach(a, &of_a), *y = by_own_reach(b, &of_b);
     result again;
     if ((x == a && y == b) || r->steps >= (int)o->max_steps) return;
-    left.max_steps -= (uint32_t)r->steps;
-    left.cache = NULL; /* which is to know the caller's own */
-    q->thin = q->planar = q->flat = UNTRIED;
-    const int status = fathom_both(q, x, y, off, &left, &again);
-    if (status < 0 || status == GJK_LIMIT || again.lower > 0) return;
-    again.steps += r->steps;
-    again.supports += r->supports;
-    *r = again;
+    const int status = fathom_again(q, x, y, off, o, r, &again);
+    if (status >= 0 && status != GJK_LIMIT && !(again.lower > 0)) *r = again;
 }
 
 /* The same of what may be balls. Where the way out of what is round is not found, those that their maps leave balls by
@@ -397,14 +409,8 @@ static APART int fathom_round_or_points(search *q, const shape *a, const shape *
     part.max_steps -= o->max_steps / 4;
     const int status = fathom_both(q, a, b, off, &part, r);
     if (status != GJK_LIMIT || r->lower > 0 || r->steps >= (int)o->max_steps) return status;
-    part.max_steps = o->max_steps - (uint32_t)r->steps;
-    part.cache = NULL; /* which is to know the caller's own */
-    q->thin = q->planar = q->flat = UNTRIED;
-    if (fathom_both(q, k.a, k.b, off + k.off, &part, &again) < 0) return status;
-    if (!(again.upper - again.lower < r->upper - r->lower)) return status;
-    again.steps += r->steps;
-    again.supports += r->supports;
-    *r = again;
+    if (fathom_again(q, k.a, k.b, off + k.off, o, r, &again) < 0) return status;
+    if (again.upper - again.lower < r->upper - r->lower) *r = again;
     return r->status;
 }
 

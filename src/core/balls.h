@@ -8,9 +8,6 @@
 #include "exact.h"
 #include "shapes.h"
 
-/* What a map that has been rounded makes of a ball of size 1; in float its sister tells that to more digits. */
-#define ROUNDED_BALL (HAS_SISTER ? 0 : 12 * UNIT)
-
 /* Two bodies, the balls of which stand as points. */
 typedef struct pointed {
     shape own[2];
@@ -52,8 +49,8 @@ static int bring_map(real n[DIM][DIM], const pose *m, const int e[DIM], int *top
     return found;
 }
 
-/* How much longer or shorter n makes vectors than a power of two does, at most, over that; 0 where each row is one
- * number. In exponents, which power of two: 1 or 2. */
+/* How much longer or shorter n makes vectors than 1 or 2, whichever it may be, over that, at most (docs/bounds.md); 0
+ * where it only exchanges axes. doubled: it is 2. */
 static real out_of_round(real n[DIM][DIM], int *doubled)
 {
     real most = 0, square = 0;
