@@ -120,8 +120,8 @@ static int distance_status(const result *r, const options *o, enum end end, cons
     return !tolerant && tight_enough(r, &q->d, radius, off, level) ? GJK_OK : GJK_FLOOR;
 }
 
-/* What is asked where the bracket is to be narrow, and the shapes are off by so much. */
-static goal goal_of(const search *q, const shape *a, const shape *b, real off, const options *o)
+/* What is asked where the bracket is to be narrow. */
+static goal goal_of(const search *q, const shape *a, const shape *b, const options *o)
 {
     goal g = {.beyond = REAL_MAX,
               .within = -1,
@@ -132,7 +132,6 @@ static goal goal_of(const search *q, const shape *a, const shape *b, real off, c
               .exact = are_exact(q, a, b, o),
               .max_steps = (int)o->max_steps};
     if (o->cutoff > 0) g.beyond = (o->cutoff + g.radius) * (1 + 16 * UNIT);
-    if (g.early) g.abs_tol -= 2 * off;
     return g;
 }
 
@@ -155,7 +154,7 @@ static WHOLE int answer_distance(search *q, const shape *a, const shape *b, real
     if (!o || !out || !a || !b) return GJK_BAD_ARGUMENT;
     q->lent = UNTRIED;
     list_both(q, a, b, o);
-    goal g = goal_of(q, a, b, off, o);
+    goal g = goal_of(q, a, b, o);
     if (g.radius > 0) {
         g.within = g.radius * (1 - 16 * UNIT);
         g.early = 1;
@@ -330,7 +329,7 @@ static int fathom_both(search *q, const shape *a, const shape *b, real off, cons
 {
     q->lent = UNTRIED;
     list_both(q, a, b, o);
-    goal g = goal_of(q, a, b, off, o);
+    goal g = goal_of(q, a, b, o);
     g.deep = 1;
     g.tight = g.exact && o->tight;
 
