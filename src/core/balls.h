@@ -16,17 +16,29 @@ typedef struct pointed {
     real off;           /* surfaces are no farther off than this */
 } pointed;
 
-/* The radii are one, times powers of two: f in [1, 2), and 2^e[i]. 0: they are not, or no normal numbers. */
-static int have_one_size(const shape *s, real *f, int e[DIM])
+/* Whether the radii may be one, times powers of two. */
+static int have_one_fraction(const real *r)
+{
+    int same = 1;
+    for (int i = 1; i < DIM; i++) same &= fraction_of(r[i]) == fraction_of(r[0]);
+    return same;
+}
+
+static inline int may_be_ball(const shape *s)
+{
+    return s->support == pub(support_ball) ||
+           (s->support == pub(support_ellipsoid) && s->data && have_one_fraction(s->data));
+}
+
+/* What may be a ball has radii f times 2^e[i], f in [1, 2). 0: one is no normal number. */
+static int take_radii(const shape *s, real *f, int e[DIM])
 {
     const real *r = s->data;
     for (int i = 0; i < DIM; i++) {
         const real here = r[s->support == pub(support_ball) ? 0 : i];
         if (!(here >= REAL_MIN && here <= REAL_MAX)) return 0;
         e[i] = exponent_of(here);
-        const real g = raised(here, -e[i]);
-        if (i > 0 && !(g == *f)) return 0;
-        *f = g;
+        *f = raised(here, -e[i]);
     }
     return 1;
 }
@@ -71,18 +83,13 @@ static real out_of_round(real n[DIM][DIM], int *doubled)
     return whole && most == 0 ? 0 : most * ((real)0.5 + most) + 64 * UNIT * UNIT;
 }
 
-static inline int may_be_ball(const shape *s)
-{
-    return s->support == pub(support_ball) || s->support == pub(support_ellipsoid);
-}
-
 /* The radius of what is a ball as it is posed, off by no more than that share. 0: it is none. */
 static int is_ball(const shape *s, real most, real *radius, real *skew)
 {
     real f = 0, n[DIM][DIM];
     int e[DIM], top = 0, doubled;
     if (!may_be_ball(s) || !s->data || !(s->radius == 0)) return 0;
-    if (!have_one_size(s, &f, e) || !bring_map(n, s->pose, e, &top)) return 0;
+    if (!take_radii(s, &f, e) || !bring_map(n, s->pose, e, &top)) return 0;
     *skew = out_of_round(n, &doubled);
     *radius = raised(f, top + doubled);
     return *skew <= most && *radius >= REAL_MIN && *radius <= REAL_MAX / 16;

@@ -162,6 +162,14 @@ static inline int exponent_of(real x)
     return (int)(b >> MANTISSA & EXPONENT_MAX) - (int)(EXPONENT_MAX / 2);
 }
 
+/* The digits of it without its exponent. */
+static inline bits fraction_of(real x)
+{
+    bits b;
+    memcpy(&b, &x, sizeof b);
+    return b & (((bits)1 << MANTISSA) - 1);
+}
+
 /* x times 2^e, rounded once where x is of size 1. */
 static real raised(real x, int e)
 {
