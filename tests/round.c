@@ -698,6 +698,120 @@ static void no_way_is_lower_than_circles_say(void **state)
            overlaps, apart, drawn, widest);
     assert_true(overlaps > 2 * PAIRS && apart > PAIRS / 2 && told * 1000 > overlaps * 991 && widest <= 1.6);
 }
+/* Bodies round about one axis, side by side or all but on it, turned alike as above or head over heels. */
+static void draw_about_one_axis(int k)
+{
+    support_fn *const about[] = {pub(support_cone), pub(support_cylinder), pub(support_ellipsoid),
+                                 pub(support_disc), pub(support_segment),  pub(support_ball)};
+    const double aside = k % 3 ? pow(10, any_between(-17, -1)) : any_between(0, 0.5), along = any_between(-0.8, 0.8);
+    const double angle = any_between(-4, 4), by[3] = {aside * cos(angle), aside * sin(angle), along};
+    alike = (enum manner)(1 + k % 4 % 3);
+    draw_pair(about[k / 4 % 3], about[k / 12 % 6], 0);
+    for (int i = 0; i < 2; i++) {
+        if (shapes[i].support == pub(support_ellipsoid)) {
+            numbers[i][1] = numbers[i][0];
+            numbers[i][2] = k % 5 ? numbers[i][2] : (real)((double)numbers[i][0] * (1 + pow(10, any_between(-4, -1))));
+        }
+    }
+    for (int i = 0; i < DIM; i++) {
+        const real *m = &poses[0].m[DIM * i];
+        poses[1].p[i] += (real)(by[0] * (double)m[0] + by[1] * (double)m[1] + by[2] * (double)m[2]);
+        for (int j = 1; j < DIM && k / 72 % 2; j++) {
+            poses[1].m[DIM * i + j] *= -1;
+        }
+    }
+}
+
+/* How high a piece of a meridian is at least, as seen: all along, and then nearer and nearer to the best. */
+static real least_seen_on_piece(const circle *c)
+{
+    const arrow from = c->node[0].n, to = c->node[1].n;
+    double best = 0.5;
+    real lowest = REAL_MAX;
+    for (int i = 0; i < 200; i++) {
+        const double off = i < 100 ? 1 : ldexp(1, -(i - 100) / 4);
+        const double t = fmin(1, fmax(0, i < 100 ? i / 99. : best + any_between(-off, off)));
+        const real here = node_at(c, unit2(add2(mul2(from, (real)(1 - t)), mul2(to, (real)t)))).height;
+        if (here < lowest) {
+            lowest = here;
+            best = t;
+        }
+    }
+    return lowest;
+}
+
+/* A way: any, or near n, or the same after a turn about a's axis. */
+static void draw_way_about(const vec *about, int i, quad n[DIM])
+{
+    const double off = i % 3 ? pow(10, any_between(-9, -2)) : 1, angle = any_between(-4, 4);
+    const double c = i % 3 < 2 ? 1 : cos(angle), s = i % 3 < 2 ? 0 : sin(angle);
+    double in[3] = {0};
+    for (int j = 0; j < 3; j++) {
+        for (int r = 0; r < 3; r++) {
+            in[j] += (double)about->c[r] * (double)poses[0].m[3 * r + j];
+        }
+    }
+    const double turned[3] = {in[0] * c - in[1] * s, in[0] * s + in[1] * c, in[2]};
+    for (int r = 0; r < 3; r++) {
+        n[r] = (quad)any_between(-off, off);
+        for (int j = 0; j < 3 && i % 3; j++) {
+            n[r] += (quad)turned[j] * (quad)poses[0].m[3 * r + j];
+        }
+    }
+}
+
+/* Where a meridian says that no way out is shorter than its floor, none is, by 113 bits; no piece of it is held to be
+ * higher than it is; and it tells it as a rule. */
+static void no_way_is_lower_than_a_meridian_says(void **state)
+{
+    long overlaps = 0, told = 0, level = 0;
+    double widest = 0;
+    (void)state;
+    state_of_draws = 19;
+    for (int k = 0; k < 4 * PAIRS; k++) {
+        static circles all;
+        bent b = {.floor = 0};
+        draw_about_one_axis(k);
+        q.d.calls = 0;
+        if (!open_cold(&q, &shapes[0], &shapes[1], 0) || !know_bulk(&of_both, &q.d, &shapes[0], &shapes[1])) {
+            continue;
+        }
+        join_alike(&of_both);
+        if (of_both.limbs == 0) {
+            continue;
+        }
+        assert_true(draw_meridian(&all, &of_both));
+        real lowest = all.least;
+        const circles before = all;
+        for (int i = 0; i < before.count; i++) { /* each alone */
+            const real seen = least_seen_on_piece(&before.at[i]);
+            lowest = smaller(seen, lowest);
+            all = before;
+            all.at[0] = before.at[i];
+            all.count = 1;
+            assert_int_not_equal(are_circles_high(&all, seen + all.off / 4), AROUND);
+        }
+        overlaps += lowest > 64 * all.off;
+        if (!find_least_of_all(&of_both, NULL, &b)) {
+            continue;
+        }
+        told += lowest > 64 * all.off;
+        level += b.level;
+        if (!draw_circles(&all, &of_both)) { /* else these have told it */
+            lowest = smaller(height_of_bulk(&of_both, b.n), lowest);
+            widest = fmax(widest, (double)((lowest - b.floor) / before.off));
+        }
+        for (int i = 0; i < 3 * TURNS_EACH; i++) {
+            quad n[DIM];
+            draw_way_about(&b.n, i, n);
+            assert_true((quad)b.floor <= height_along_way(n) / quad_length_of(n, DIM));
+        }
+    }
+    alike = 0;
+    printf("meridians: told of %ld of %ld overlaps, %ld all but on the axis; at most %.2f of what is charged off\n",
+           told, overlaps, level, widest);
+    assert_true(overlaps > PAIRS && told * 1000 > overlaps * 999 && level > PAIRS / 2 && widest <= 1.3);
+}
 #endif
 
 int main(void)
@@ -711,6 +825,7 @@ int main(void)
         cmocka_unit_test(limbs_that_are_alike_are_one),
         cmocka_unit_test(edges_of_cones_are_bowed_enough),
         cmocka_unit_test(no_way_is_lower_than_circles_say),
+        cmocka_unit_test(no_way_is_lower_than_a_meridian_says),
 #endif
         cmocka_unit_test(no_way_is_shorter_than_told),
         cmocka_unit_test(all_ways_are_as_high_as_told),

@@ -125,13 +125,13 @@ GJK_API int gjk3_intersect(const gjk3_shape *a, const gjk3_shape *b, const gjk3_
  *
  * The depth is sought by a polytope that grows within the difference of the shapes. Its corners have a workspace; where
  * that is full, those that can no longer matter make room, and where there are none the bracket holds all the same,
- * status GJK_LIMIT. 64 corners do for everyday polytopes, and for round shapes unless they are all but concentric, or
- * on one axis: what ends those is max_steps, 10 to 130 steps being usual. Radii take no room. cutoff and tolerances are
- * as for distance; of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth
- * down to about the least that the coordinates can spell is right to the last place, unless the polytope comes to its
- * end in the noise of nearly flat bodies; then the bracket is the usual one. It takes up to 95 KB of stack where the
- * compiler optimises, in float 58, its own room for corners included. A library built with GJK_NO_DEPTH has neither
- * this function nor the next. */
+ * status GJK_LIMIT. 64 corners do for everyday polytopes, and for round shapes unless they are all but concentric: what
+ * ends those is max_steps, 10 to 130 steps being usual. Radii take no room. cutoff and tolerances are as for distance;
+ * of a depth, rel_tol is a share of -lower, the most that it may be. tight is as there, too: a depth down to about the
+ * least that the coordinates can spell is right to the last place, unless the polytope comes to its end in the noise of
+ * nearly flat bodies; then the bracket is the usual one. It takes up to 95 KB of stack where the compiler optimises, in
+ * float 58, its own room for corners included. A library built with GJK_NO_DEPTH has neither this function nor the
+ * next. */
 GJK_API int gjk3_penetration(const gjk3_shape *a, const gjk3_shape *b, const gjk3_options *options, gjk3_result *out);
 /* The bytes of a workspace for so many corners, from 8 to 16000; 0 for other numbers. Without one there is room for 64,
  * 13536 bytes of stack, in float 8352. Of smooth shapes, which float asks of its larger sister unless it is built with

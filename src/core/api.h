@@ -396,8 +396,8 @@ static APART void fathom_by_own_reaches(search *q, const shape *a, const shape *
     if (status >= 0 && status != GJK_LIMIT && !(again.lower > 0)) *r = again;
 }
 
-/* The same of what may be balls. Where the way out of what is round is not found, those that their maps leave balls by
- * and large stand as points once more; a quarter of the steps is kept for that. */
+/* The same of what may be balls. Where the way out of what is round is not found, or by and large, those that their
+ * maps leave balls by and large stand as points once more; a quarter of the steps is kept for that. */
 static APART int fathom_round_or_points(search *q, const shape *a, const shape *b, real off, const options *o,
                                         result *r)
 {
@@ -407,7 +407,7 @@ static APART int fathom_round_or_points(search *q, const shape *a, const shape *
     if (!take_balls(&k, a, b, (real)0x1p-10)) return fathom_both(q, a, b, off, o, r);
     part.max_steps -= o->max_steps / 4;
     const int status = fathom_both(q, a, b, off, &part, r);
-    if (status != GJK_LIMIT || r->lower > 0 || r->steps >= (int)o->max_steps) return status;
+    if ((status != GJK_LIMIT && status != GJK_FLOOR) || r->lower > 0 || r->steps >= (int)o->max_steps) return status;
     if (fathom_again(q, k.a, k.b, off + k.off, o, r, &again) < 0) return status;
     if (again.upper - again.lower < r->upper - r->lower) *r = again;
     return r->status;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How deep sets of edges and one disc are (a box or a segment and a cylinder or a disc, two upright cylinders), without
  * a polytope: their heights are least where n is square to an edge, or to the disc, and nowhere else (docs/bounds.md).
- * So the great circles square to the edges are trip around, arc by arc, each in its own plane: the shadow of A - B
+ * So the great circles square to the edges are gone around, arc by arc, each in its own plane: the shadow of A - B
  * there is a polygon and an ellipse. */
 #ifndef GJK_CORE_CIRCLES_H
 #define GJK_CORE_CIRCLES_H
@@ -18,49 +18,61 @@ typedef struct arrow {
 static inline real dot2(arrow a, arrow b) { return a.x * b.x + a.y * b.y; }
 static inline real cross2(arrow a, arrow b) { return a.x * b.y - a.y * b.x; }
 static inline arrow add2(arrow a, arrow b) { return (arrow){a.x + b.x, a.y + b.y}; }
+static inline arrow sub2(arrow a, arrow b) { return (arrow){a.x - b.x, a.y - b.y}; }
 static inline arrow mul2(arrow a, real k) { return (arrow){a.x * k, a.y * k}; }
 static inline arrow left2(arrow a) { return (arrow){-a.y, a.x}; }
 static inline arrow unit2(arrow a) { return mul2(a, 1 / root(dot2(a, a))); }
 
 #define MOST_EDGES (MOST_LIMBS - 2)
 #define MOST_NODES (MOST_EDGES + 4)
+#define MOST_OVALS 2
 
-/* A direction on a circle, what the disc counts for along it, as a vector across its rows, and how long that is; and
- * how high A - B is there. */
+/* An ellipse: its two rows, what they span at least, and by how much it is wide where that is known. */
+typedef struct oval {
+    arrow row[2];
+    real area, wide;
+} oval;
+
+/* A direction on a circle, what each ellipse counts for along it, and how high A - B is there. */
 typedef struct node {
-    arrow n, rim;
-    real far, height;
+    arrow n;
+    real far[MOST_OVALS], height;
 } node;
 
-/* Half a great circle, on which the middle counts for nothing or less: along the other half heights are no less. */
+/* Half a great circle, on which the middle counts for nothing or less: along the other half heights are no less. Or a
+ * part of it. */
 typedef struct circle {
     vec e[2];                       /* its plane */
-    arrow middle, edge[MOST_EDGES]; /* there; the disc's two rows, */
-    arrow row[2];
-    real area; /*   and of what these span at least */
-    int edges, nodes;
+    arrow middle, edge[MOST_EDGES]; /* there */
+    oval oval[MOST_OVALS];
+    int edges, ovals, nodes;
     node node[MOST_NODES]; /* from its start to its end, by angles */
 } circle;
 
 /* All of them, where they are least, and what is charged for rounding. */
 typedef struct circles {
     const bulk *of;
-    int disc, count;
+    int disc, count; /* disc: the one of A - B; -1: bodies about one axis (meridian.h) */
     circle at[MOST_EDGES];
-    real ends, least, off; /* the least along the disc's axis, and of all; */
-    vec n;                 /*   there */
+    real ends, least, off; /* the least along the disc's axis, and of all, */
+    vec n;                 /*   there, */
+    int in;                /*   seen in that one; */
+    real simple;           /* heights are no less, but for what is charged, as is known without a trip */
+    int level;             /* all around the axis they are about the same: 1; or all but the same: 2 */
 } circles;
 
 /* ---- the shadow ---- */
 
-static inline arrow disc_along(const circle *c, arrow n) { return (arrow){dot2(c->row[0], n), dot2(c->row[1], n)}; }
+static inline arrow oval_along(const oval *o, arrow n) { return (arrow){dot2(o->row[0], n), dot2(o->row[1], n)}; }
 
-static node node_at(const circle *c, arrow n)
+static inline node node_at(const circle *c, arrow n)
 {
-    node r = {.n = n, .rim = disc_along(c, n), .height = dot2(c->middle, n)};
-    r.far = root(dot2(r.rim, r.rim));
+    node r = {.n = n, .height = dot2(c->middle, n)};
     for (int i = 0; i < c->edges; i++) r.height += size(dot2(c->edge[i], n));
-    r.height += r.far;
+    for (int i = 0; i < c->ovals; i++) {
+        const arrow rim = oval_along(&c->oval[i], n);
+        r.height += r.far[i] = root(dot2(rim, rim));
+    }
     return r;
 }
 
@@ -126,8 +138,11 @@ static void draw_circle(const bulk *of, int rim, int i, circle *c)
     c->edges = 0;
     for (int j = 0; j < of->limbs; j++)
         if (j != i && j != rim) c->edge[c->edges++] = in_plane(c, of->limb[j].row[0]);
-    for (int r = 0; r < 2; r++) c->row[r] = in_plane(c, l->row[r]);
-    c->area = larger(size(cross2(c->row[0], c->row[1])) - 16 * UNIT * l->size * l->size, 0);
+    oval *o = &c->oval[0];
+    for (int r = 0; r < 2; r++) o->row[r] = in_plane(c, l->row[r]);
+    o->area = larger(size(cross2(o->row[0], o->row[1])) - 16 * UNIT * l->size * l->size, 0);
+    o->wide = l->size;
+    c->ovals = 1;
     put_nodes(c, in_plane(c, cross(l->row[0], l->row[1])));
 }
 
@@ -140,12 +155,28 @@ static void take_least(circles *all, real height, vec n)
     all->n = n;
 }
 
-/* What the limbs count for in all, at most. */
+/* Takes a circle, or a part of one, in, whose nodes are known. */
+static void take_circle(circles *all)
+{
+    const circle *c = &all->at[all->count];
+    for (int k = 0; k < c->nodes; k++) {
+        if (!(c->node[k].height < all->least)) continue;
+        take_least(all, c->node[k].height, lifted(c, c->node[k].n));
+        all->in = all->count;
+    }
+    all->count++;
+}
+
+/* What the limbs count for in all, at most; of a disc that is given by its rows. */
 static real sum_of_sizes(const bulk *of, const limb *rim)
 {
-    const vec u = rim->row[0], v = rim->row[1];
-    real sum = length(of->middle) + root(larger(dot(u, u), dot(v, v)) + size(dot(u, v)));
-    for (int i = 0; i < of->limbs; i++) sum += &of->limb[i] == rim ? 0 : of->limb[i].size;
+    real sum = length(of->middle);
+    for (int i = 0; i < of->limbs; i++) {
+        const limb *l = &of->limb[i];
+        const vec u = l->row[0], v = l->row[1];
+        if (l == rim) sum += root(larger(dot(u, u), dot(v, v)) + size(dot(u, v)));
+        else sum += l->partial ? l->steep : l->size;
+    }
     return sum;
 }
 
@@ -161,12 +192,18 @@ static real askew_of(const bulk *of)
 /* By so much a limb that is joined may not be as long as both. */
 static inline real off_in_length(const limb *l) { return l->askew > 0 ? 12 * UNIT * l->size : 0; }
 
-/* What rounding does to a floor, as derived in docs/bounds.md, and what is joined. */
-static real charge_circles(const bulk *of, const limb *rim)
+/* What joints do to a floor. */
+static real off_by_joints(const bulk *of)
 {
-    real off = UNIT * (37 * sum_of_sizes(of, rim) + 2) + askew_of(of);
+    real off = askew_of(of);
     for (int i = 0; i < of->limbs; i++) off += off_in_length(&of->limb[i]);
     return off;
+}
+
+/* What rounding does to it, as derived in docs/bounds.md, and what is joined. */
+static real charge_circles(const bulk *of, const limb *rim)
+{
+    return UNIT * (37 * sum_of_sizes(of, rim) + 2) + off_by_joints(of);
 }
 
 /* The disc, if there is one, and all else are edges. -1: that is not so. */
@@ -194,6 +231,21 @@ static int look_along_spindle(circles *all)
     return 1;
 }
 
+/* How high a disc and one edge are at least, as of bodies along one axis: on the circle square to the edge there is the
+ * disc's shadow alone, as high as that is narrow, off its middle. */
+static real floor_of_one_edge(const circles *all)
+{
+    const circle *c = &all->at[0];
+    const limb *l = &all->of->limb[all->disc];
+    const arrow u = c->oval[0].row[0], v = c->oval[0].row[1];
+    const real mean = (dot2(u, u) + dot2(v, v)) / 2, half = u.x * u.x + v.x * v.x - mean, mixed = u.x * u.y + v.x * v.y;
+    const real least = mean - root(half * half + mixed * mixed), off = length(all->of->middle);
+    if (!(2 * least > mean)) return -REAL_MAX;
+    const real charge = UNIT * (24 * (l->size + off) + 2) + off_in_length(l);
+    const real around = root(least) - root(dot2(c->middle, c->middle)) - charge - askew_of(all->of);
+    return smaller(around, all->ends - all->off);
+}
+
 /* Looks along all that are to be looked along first. 0: the set is another. */
 static int draw_circles(circles *all, const bulk *of)
 {
@@ -206,11 +258,11 @@ static int draw_circles(circles *all, const bulk *of)
     all->off = charge_circles(of, &of->limb[all->disc]);
     for (int i = 0; i < of->limbs; i++) {
         if (i == all->disc) continue;
-        circle *c = &all->at[all->count++];
-        draw_circle(of, all->disc, i, c);
-        for (int k = 0; k < c->nodes; k++)
-            if (c->node[k].height < all->least) take_least(all, c->node[k].height, lifted(c, c->node[k].n));
+        draw_circle(of, all->disc, i, &all->at[all->count]);
+        take_circle(all);
     }
+    all->simple = all->count == 1 ? floor_of_one_edge(all) : -REAL_MAX;
+    all->level = 0;
     return all->count > 0;
 }
 
@@ -239,32 +291,38 @@ typedef struct stance {
     real high, slope;
 } stance;
 
-/* That corner and the point of the disc that is the farthest there or, where there is none, along the middle. */
-static stance stance_at(const circle *c, const arc *a, const node *end, real back)
+/* That corner and the point of each ellipse that is the farthest there or, where there is none, along the middle. */
+static inline stance stance_at(const circle *c, const arc *a, const node *end, real back)
 {
-    const arrow left = mul2(left2(end->n), back), there = disc_along(c, left);
+    const arrow left = mul2(left2(end->n), back);
     stance s = {dot2(a->corner, end->n), dot2(a->corner, left)};
-    if (leads(end->rim)) {
-        s.high += end->far;
-        s.slope += dot2(end->rim, there) / end->far;
-        return s;
+    for (int i = 0; i < c->ovals; i++) {
+        const arrow rim = oval_along(&c->oval[i], end->n), there = oval_along(&c->oval[i], left);
+        if (leads(rim)) {
+            s.high += end->far[i];
+            s.slope += dot2(rim, there) / end->far[i];
+            continue;
+        }
+        const arrow amid = oval_along(&c->oval[i], add2(a->from.n, a->to.n));
+        if (!leads(amid)) continue;
+        s.high += dot2(unit2(amid), rim);
+        s.slope += dot2(unit2(amid), there);
     }
-    const arrow d = disc_along(c, add2(a->from.n, a->to.n));
-    if (!leads(d)) return s;
-    s.high += dot2(unit2(d), end->rim);
-    s.slope += dot2(unit2(d), there);
     return s;
 }
 
-/* Where the disc is so much narrower than where it is widest, rounding may take its point too far off to tell by it how
- * it is curved. */
+/* Where an ellipse is so much narrower than where it is widest, rounding may take its point too far off to tell by it
+ * how it is curved. */
 #define WELL_SEEN ((real)0.25)
 
-/* By so much at least the disc is curved along the arc. */
-static real bow_along(const circle *c, const arc *a, real cosine)
+/* Of what it is curved so much is left out for that. */
+#define BOW_LOSS (UNIT < (real)0x1p-40 ? (real)0x1p-20 : (real)0x1p-8)
+
+/* By so much at least the ellipse is curved along the arc. */
+static real bow_along(const oval *o, real from, real to, real cosine)
 {
-    const real far = larger(a->from.far, a->to.far), most = far * far * 2 / (1 + cosine), cube = most * root(most);
-    return cube > REAL_MIN / UNIT ? smaller(c->area * c->area / cube * (1 - (real)0x1p-8), 2 * a->high) : 0;
+    const real far = larger(from, to), most = far * far * 2 / (1 + cosine), cube = most * root(most);
+    return cube > REAL_MIN / UNIT ? o->area * o->area / cube * (1 - BOW_LOSS) : 0;
 }
 
 /* An arc of that sine and cosine is as high as that by what is seen from one end, if the shadow is curved so beyond the
@@ -278,32 +336,38 @@ static int is_high(const stance *s, real bow, real cosine, real sine, real high)
 }
 
 /* From one of its ends, the arc is as high as it is to be. */
-static int is_arc_high(const circle *c, const limb *rim, const arc *a)
+static int is_arc_high(const circle *c, const arc *a)
 {
     const real cosine = dot2(a->from.n, a->to.n), sine = size(cross2(a->from.n, a->to.n));
-    const real least = WELL_SEEN * rim->size;
     const stance first = stance_at(c, a, &a->from, 1);
     if (is_high(&first, 0, cosine, sine, a->high)) return 1;
     const stance last = stance_at(c, a, &a->to, -1);
     if (is_high(&last, 0, cosine, sine, a->high)) return 1;
-    const real bow = bow_along(c, a, cosine);
-    return (a->from.far >= least && is_high(&first, bow, cosine, sine, a->high)) ||
-           (a->to.far >= least && is_high(&last, bow, cosine, sine, a->high));
+    real bow_of_first = 0, bow_of_last = 0;
+    for (int i = 0; i < c->ovals; i++) {
+        const oval *o = &c->oval[i];
+        const real from = a->from.far[i], to = a->to.far[i], bow = bow_along(o, from, to, cosine);
+        bow_of_first += from >= WELL_SEEN * o->wide ? bow : 0;
+        bow_of_last += to >= WELL_SEEN * o->wide ? bow : 0;
+    }
+    const real most = 2 * a->high;
+    return is_high(&first, smaller(bow_of_first, most), cosine, sine, a->high) ||
+           is_high(&last, smaller(bow_of_last, most), cosine, sine, a->high);
 }
 
 /* So often an arc and its parts are halved in all. */
-#define HALVINGS 32
+#define HALVINGS 64
 
 enum round_trip { AROUND, IS_LOWER, UNPROVEN };
 
 /* From one node to the next. IS_LOWER: below n it is lower. UNPROVEN: it is not told. */
-static enum round_trip go_along(const circle *c, const limb *rim, arc a, arrow *n)
+static enum round_trip go_along(const circle *c, arc a, arrow *n)
 {
     node next[HALVINGS];
     int halved = 0, ahead = 0;
     for (;;) {
         if (!(a.from.height >= a.high && a.to.height >= a.high)) return UNPROVEN;
-        if (is_arc_high(c, rim, &a)) {
+        if (is_arc_high(c, &a)) {
             if (ahead == 0) return AROUND;
             a.from = a.to;
             a.to = next[--ahead];
@@ -324,29 +388,14 @@ static enum round_trip are_circles_high(circles *all, real high)
         const circle *c = &all->at[i];
         for (int k = 0; k + 1 < c->nodes; k++) {
             arrow n;
-            const enum round_trip trip = go_along(c, &all->of->limb[all->disc], arc_between(c, k, high), &n);
+            const enum round_trip trip = go_along(c, arc_between(c, k, high), &n);
+            if (trip == AROUND) continue;
             if (trip == IS_LOWER) all->n = lifted(c, n);
-            if (trip != AROUND) return trip;
+            all->in = i;
+            return trip;
         }
     }
     return AROUND;
-}
-
-/* ---- one edge ---- */
-
-/* How high a disc and one edge are at least, as of bodies along one axis: on the circle square to the edge there is the
- * disc's shadow alone, as high as that is narrow, off its middle. */
-static real floor_of_one_edge(const circles *all)
-{
-    const circle *c = &all->at[0];
-    const limb *l = &all->of->limb[all->disc];
-    const arrow u = c->row[0], v = c->row[1];
-    const real mean = (dot2(u, u) + dot2(v, v)) / 2, half = u.x * u.x + v.x * v.x - mean, mixed = u.x * u.y + v.x * v.y;
-    const real least = mean - root(half * half + mixed * mixed), off = length(all->of->middle);
-    if (all->count > 1 || !(2 * least > mean)) return -REAL_MAX;
-    const real charge = UNIT * (24 * (l->size + off) + 2) + off_in_length(l);
-    const real around = root(least) - root(dot2(c->middle, c->middle)) - charge - askew_of(all->of);
-    return smaller(around, all->ends - all->off);
 }
 
 /* ---- where edges cross ---- */
@@ -392,38 +441,6 @@ static void stand_on_edges(const circles *all, bent *b)
     for (int k = 0; k < SHARINGS; k++)
         for (int i = 0; i < of->limbs; i++)
             if (on >> i & 1) share_rest(&of->limb[i], i == all->disc ? b->share : &b->sign[i], &rest);
-}
-
-/* ---- the least of all ---- */
-
-/* So often a lower dip is looked for. */
-#define DESCENTS 4
-
-/* Finds the least height of all, from a dip that is known, if any. 0: it is not proven to be; else b's floor is what
- * heights are at least. */
-static int find_least_of_all(const bulk *of, const bent *known, bent *b)
-{
-    circles all;
-    if (!draw_circles(&all, of)) return 0;
-    const real spare = all.off / 8, simple = floor_of_one_edge(&all);
-    if (known) *b = *known;
-    for (int i = 0; i < DESCENTS; i++) {
-        int found = i == 0 && known;
-        if (!found || all.least < height_of_bulk(of, b->n) - spare) found = find_least(of, all.n, NULL, b);
-        if (!found || all.least < height_of_bulk(of, b->n) - spare) stand_on_edges(&all, b);
-        const real high = smaller(height_of_bulk(of, b->n), all.least) - spare;
-        if (!(high > all.off)) return 0;
-        if (simple >= high - all.off) {
-            b->floor = simple;
-            return 1;
-        }
-        const enum round_trip trip = are_circles_high(&all, high);
-        if (trip == UNPROVEN) return 0;
-        if (trip == IS_LOWER) continue;
-        b->floor = high - all.off;
-        return 1;
-    }
-    return 0;
 }
 
 #endif

@@ -315,7 +315,7 @@ static inline int find_dip_by_circles(const depth *d, bent *b)
 /* The depth by that dip alone. 0: it does not tell it. -1: a support's answer was none. */
 static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
 {
-    dip *f = &all->at[last ? MOST_DIPS - 1 : 0];
+    dip *f = &all->at[last ? MOST_DIPS : 0];
     search *q = d->q;
     const real lower = q->lower;
     const vec normal = q->normal;
@@ -335,6 +335,10 @@ static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
         q->lower = f->below;
         q->normal = f->n;
     }
+    if (bounded && b->level && f->everywhere && f->below >= q->lower - larger(2 * q->d.doubt, -f->held - f->below)) {
+        q->lower = f->below; /* another way is as good, as far as can be told: normal and points go with this */
+        q->normal = f->n;
+    }
     if ((taken || bounded) && f->everywhere && bounds_as_well(q, f)) {
         all->best = f;
         if (!last) all->n = 1;
@@ -346,15 +350,22 @@ static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
 }
 
 /* The depth by a dip alone, before there is a surface; or at last, where none has come to an end. How it is curved
- * costs less than to go around circles. 0: none tells it. -1: a support's answer was none. */
+ * costs less than to go around circles, which may tell more. 0: none tells it. -1: a support's answer was none. */
 static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
 {
     bent b;
     int told = 0;
     if (!ROUND || !all) return 0;
     if (d->q->steps < d->g->max_steps && find_curved_dip(d, &b)) told = fathom_by(d, all, &b, upper, last);
-    if (told || d->q->steps >= d->g->max_steps || !find_dip_by_circles(d, &b)) return told;
-    return fathom_by(d, all, &b, upper, last);
+    const int narrow = *upper - d->q->lower <= 4 * d->q->d.doubt || is_as_asked(d, d->q->lower, *upper);
+    if (told < 0 || (told && narrow)) return told;
+    if (d->q->steps >= d->g->max_steps || !find_dip_by_circles(d, &b)) return told;
+    if (!told) return fathom_by(d, all, &b, upper, last);
+    dip *at = &all->at[last ? MOST_DIPS : 0];
+    const dip before = *at;
+    const int more = fathom_by(d, all, &b, upper, last);
+    if (more == 0) *at = before;
+    return more == 0 ? told : more;
 }
 
 /* The points are those of one corner. */
@@ -544,7 +555,6 @@ static int prove_grown(depth *d, real *upper, enum end *end)
 static enum end end_by_all(depth *d, dips *all, real *upper)
 {
     dips *const before = d->dips;
-    if (all->n == MOST_DIPS) return OPEN;
     d->dips = all;
     const int told = fathom_by_dip(d, all, upper, 1);
     if (told <= 0) d->dips = before;

@@ -8,7 +8,7 @@
 #ifndef GJK_CORE_PENETRATION_H
 #define GJK_CORE_PENETRATION_H
 
-#include "circles.h"
+#include "meridian.h"
 #include "heights.h"
 #include "dip.h"
 #include "inball.h"
@@ -25,7 +25,7 @@ typedef struct tally {
 #define MOST_DIPS 4
 typedef struct dips {
     first_dip *first; /* with what heights are made of */
-    dip at[MOST_DIPS];
+    dip at[MOST_DIPS + 1];
     dip *best; /* the lowest; NULL: none */
     int n;
     real tried; /* how deep it was known to be at most when one was last looked for */
@@ -928,6 +928,14 @@ static int set_floor(dip *f, const bulk *of, bent *b, real h, int told)
     return f->everywhere;
 }
 
+/* So narrow a bracket leaves no more to facets: where all ways around an axis are about as short, they come to no end.
+ */
+static real told_width(const depth *d, const bent *b)
+{
+    const real usual = (b->level ? 64 : 4) * d->q->d.doubt;
+    return b->level < 2 ? usual : larger(usual, (real)0x1p-20 * b->floor);
+}
+
 /* Whether circles have told the dip, and its bracket leaves no more to facets. Its corner may not be too far aside, nor
  * beyond the bracket. */
 static int is_told_by_circles(const depth *d, const dip *f, bent *b)
@@ -935,7 +943,7 @@ static int is_told_by_circles(const depth *d, const dip *f, bent *b)
     const real width = -f->below - b->floor, here = dot(f->n, f->corner.w);
     const int stands = f->aside * f->aside <= width * b->floor && here >= b->floor && here <= -f->below;
     if (!stands || d->q->d.lost > 0) b->floor = 0;
-    return b->floor > CLEAR && width <= 4 * d->q->d.doubt;
+    return b->floor > CLEAR && width <= told_width(d, b);
 }
 
 /* Takes in what is known of A - B along b's n, where the height has a dip. -1: a support's answer was none. 0: nothing

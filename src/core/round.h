@@ -393,7 +393,8 @@ typedef struct bent {
     quadric slant[ACROSS];  /*   and how all of a cone's is bowed */
     real sign[MOST_LIMBS];  /* as which straight limbs and cones' count, on slants by their shares as last known */
     real room;              /* see room_of_ball; below 0: it is not told yet */
-    real floor;             /* heights are no less, by circles; 0: that is not told */
+    real floor;             /* heights are no less, by circles; 0: that is not told; */
+    int level;              /*   and about the same all around an axis, 1, or all but the same, 2 */
 } bent;
 
 static inline int is_on_edge(const bent *b, int i) { return (int)(b->edges >> i & 1); }
@@ -1065,14 +1066,24 @@ static inline void put_length(const limb *l, int k, real share, vertex *c)
 }
 
 #if DIM == 3
-/* The cone's point. */
-static void put_on_cone(const bent *b, const limb *l, int at, vertex *c)
+/* What the rows of a disc count for at whose point n is: as told; or, of several, as the one does of which that is. */
+static void share_of_disc(const bulk *of, const bent *b, int at, real share[2])
 {
+    const limb *l = &of->limb[at], *told = &of->limb[b->of[0]];
+    const vec p = mul(add(mul(told->row[0], b->share[0]), mul(told->row[1], b->share[1])), 2 / told->size);
+    for (int r = 0; r < 2; r++) share[r] = b->of[0] == at ? b->share[r] : dot(l->row[r], p) / l->size;
+}
+
+/* The cone's point. */
+static void put_on_cone(const bulk *of, const bent *b, int at, vertex *c)
+{
+    const limb *l = &of->limb[at];
     const int base = is_on_edge(b, at) && !is_on_slant(b, at);
     const real times = base ? 1 : (1 + b->sign[at]) / 2, x = dot(l->row[0], b->n), y = dot(l->row[1], b->n);
-    const real square = x * x + y * y, per = square > REAL_MIN / UNIT ? times / root(square) : 0,
-               s = base ? b->share[0] : x * per, t = base ? b->share[1] : y * per;
-    const vec p = {{s * l->length[0], t * l->length[1], (1 - 2 * times) * l->length[2]}};
+    const real square = x * x + y * y, per = square > REAL_MIN / UNIT ? times / root(square) : 0;
+    real share[2] = {x * per, y * per};
+    if (base) share_of_disc(of, b, at, share);
+    const vec p = {{share[0] * l->length[0], share[1] * l->length[1], (1 - 2 * times) * l->length[2]}};
     if (l->of_b) c->y = (vec){{-p.c[0], -p.c[1], p.c[2]}};
     else c->x = p;
 }
@@ -1086,8 +1097,9 @@ static void put_straight(const bulk *of, int at, real share, vertex *c)
         if (of->limb[i].mate == at) put_length(&of->limb[i], 0, of->limb[i].back ? -share : share, c);
 }
 
+#if DIM == 3
 /* The same of a round limb, at whose edge n is: of what is joined to it as that is turned along its own axes. */
-static void put_round(const bulk *of, int at, const real share[ACROSS], vertex *c)
+static void put_round(const bulk *of, int at, const real share[2], vertex *c)
 {
     const limb *l = &of->limb[at];
     vec p = axis(0, 0);
@@ -1101,24 +1113,24 @@ static void put_round(const bulk *of, int at, const real share[ACROSS], vertex *
         for (int k = 0; k < m->rows; k++) put_length(m, k, 2 * dot(m->row[k], p) / m->size, c);
     }
 }
+#endif
 
 /* Of the bodies' points what straight limbs and edges make: as they count, not as rounding has it. */
 static void share_out(const bulk *of, const bent *b, vertex *c)
 {
     for (int i = 0; i < of->limbs; i++) {
         const limb *l = &of->limb[i];
-        real share[ACROSS] = {0};
-        int k = 0;
+        real share[ACROSS] = {b->sign[i]};
 #if DIM == 3
-        if (l->partial) {
-            put_on_cone(b, l, i, c);
-            continue;
+        if (l->partial) put_on_cone(of, b, i, c);
+        if (l->rows == 2 && !l->partial && is_on_edge(b, i)) {
+            share_of_disc(of, b, i, share);
+            put_round(of, i, share, c);
         }
 #endif
         for (int r = 0; r < b->rows; r++)
-            if (b->of[r] == i) share[k++] = b->share[r];
-        if (l->rows == 1) put_straight(of, i, is_on_edge(b, i) ? share[0] : b->sign[i], c);
-        else if (is_on_edge(b, i)) put_round(of, i, share, c);
+            if (b->of[r] == i && is_on_edge(b, i)) share[0] = b->share[r];
+        if (l->rows == 1) put_straight(of, i, share[0], c);
     }
 }
 
