@@ -751,6 +751,7 @@ static inline void start_bend(const rolling *s, bent *b)
     b->slope_off = 32 * UNIT;
     b->bow_off = b->kink_off = b->height_off = b->sway = b->floor = 0;
     b->room = -1;
+    b->level = 0;
     b->edges = s->edges;
     b->slants = s->slants;
     b->rows = 0;
