@@ -1928,7 +1928,7 @@ static void about_one_axis(void **state)
     printf("%-6s about one axis: %ld deep, %ld as tight as rounding, %ld open, %.1f steps; widest %.0f u, off %.0f u\n",
            VARIANT, deep, tight, open, (double)steps / (double)deep, widest, farthest);
     assert_true(is_share(deep, 16 * pairs_per_family, 0.6) && is_share(tight, deep, 0.97) &&
-                is_share(deep - open, deep, 0.998) && steps < (VARIANT_FLOAT ? 32 : 6) * deep);
+                is_share(deep - open, deep, 0.998) && steps < (VARIANT_FLOAT ? 32 : 5) * deep);
 }
 
 /* Boxes and segments in cylinders and discs, whose heights have edges and one disc: none takes a polytope, as a rule.

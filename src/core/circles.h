@@ -57,7 +57,7 @@ typedef struct circles {
     real ends, least, off; /* the least along the disc's axis, and of all, */
     vec n;                 /*   there, */
     int in;                /*   seen in that one; */
-    real simple;           /* heights are no less, but for what is charged, as is known without a trip */
+    real simple;           /* heights are no less, which takes no trip to know */
     int level;             /* all around the axis they are about the same: 1; or all but the same: 2 */
 } circles;
 

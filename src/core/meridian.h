@@ -85,8 +85,8 @@ static real as_circle(vec along, vec u, vec v, real *square)
     }
     const vec p = to_unit(x), y = cross(along, p), q = dot(y, v) < 0 ? mul(y, -1) : y;
     const real radius = (dot(u, p) + dot(v, q)) / 2;
-    const vec by = sub(u, mul(p, radius)), and = sub(v, mul(q, radius));
-    *square += dot(by, by) + dot(and, and);
+    const vec off_u = sub(u, mul(p, radius)), off_v = sub(v, mul(q, radius));
+    *square += dot(off_u, off_u) + dot(off_v, off_v);
     return radius;
 }
 
@@ -147,9 +147,9 @@ static void add_part(meridian *m, const limb *l)
 static void lay_across(meridian *m, vec middle)
 {
     const vec x = mul(aside_of(m->along, middle), -1);
-    const real far = length(x), size_of_all = length(middle);
+    const real far = length(x), size_of_middle = length(middle);
     vec e[2];
-    if (far > 64 * UNIT * size_of_all) {
+    if (far > 64 * UNIT * size_of_middle) {
         e[0] = aside_of(m->along, mul(x, 1 / far)); /* square to the axis, to rounding */
     } else {
         put_across(m->along, e);
@@ -159,8 +159,8 @@ static void lay_across(meridian *m, vec middle)
     const vec by = sub(sub(middle, mul(m->across, in.x)), mul(m->along, in.y));
     m->middle = add2(m->middle, in);
     m->off += length(by) + 2 * larger(in.x, 0);
-    m->roundings += 7 * size_of_all;
-    m->sizes += size_of_all;
+    m->roundings += 7 * size_of_middle;
+    m->sizes += size_of_middle;
     m->far = far;
 }
 
@@ -358,10 +358,10 @@ static int find_least_of_all(const bulk *of, const bent *known, bent *b)
     circles all;
     if (!draw_circles(&all, of) && !draw_meridian(&all, of)) return 0;
     const real spare = all.off / 8;
-    const int may_do = known && all.disc >= 0;
-    if (may_do) *b = *known;
+    const int has_dip = known && all.disc >= 0;
+    if (has_dip) *b = *known;
     for (int i = 0; i < DESCENTS; i++) {
-        if (i > 0 || !may_do || all.least < height_of_bulk(of, b->n) - spare) go_down(&all, spare, b);
+        if (i > 0 || !has_dip || all.least < height_of_bulk(of, b->n) - spare) go_down(&all, spare, b);
         const real high = smaller(height_of_bulk(of, b->n), all.least) - spare;
         if (!(high > all.off)) return 0;
         b->level = all.level;
