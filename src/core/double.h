@@ -51,6 +51,8 @@ HOT dvec dwhere_below(dvec x, dvec y, dvec a, dvec b)
 }
 HOT dvec dopposite(dvec a) { return (dvec){_mm_xor_pd(a.c, _mm_set1_pd(-0.0))}; }
 HOT int dsame(dvec a, dvec b) { return _mm_movemask_pd(_mm_cmpeq_pd(a.c, b.c)) == 3; }
+/* 0 where a and b are. */
+HOT dvec deither(dvec a, dvec b) { return (dvec){_mm_or_pd(a.c, b.c)}; }
 /* Turned round where s has its sign set. */
 HOT dvec dflipped(dvec a, double s) { return (dvec){_mm_xor_pd(a.c, _mm_and_pd(_mm_set1_pd(s), _mm_set1_pd(-0.0)))}; }
 /* With whole numbers below 8 for their last digits; and that of the first. */
@@ -112,6 +114,7 @@ HOT dvec dwhere_below(dvec x, dvec y, dvec a, dvec b)
 }
 HOT dvec dopposite(dvec a) { return dvec_of(-a.c[0], -a.c[1]); }
 HOT int dsame(dvec a, dvec b) { return a.c[0] == b.c[0] && a.c[1] == b.c[1]; }
+HOT dvec deither(dvec a, dvec b) { return dvec_of(a.c[0] == 0 ? b.c[0] : a.c[0], a.c[1] == 0 ? b.c[1] : a.c[1]); }
 HOT dvec dflipped(dvec a, double s)
 {
     uint64_t sign;

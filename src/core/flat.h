@@ -84,13 +84,13 @@ HOT int tell_flat_held(const flat *f, const dfront *k, result *r)
 }
 
 /* What both numbers are more than whole multiples of what 1.5 * 2^52 of is off; 0 of no such. */
-HOT dvec beyond_whole(dvec x, dvec off) { return dsizes(dsub(dsub(dadd(x, off), off), x)); }
+HOT dvec beyond_whole(dvec x, dvec off) { return dsub(dsub(dadd(x, off), off), x); }
 
 /* Likewise the products that the body's corner is placed by, which are exact. */
 HOT dvec placed_beyond_whole(const flat_body *s, unsigned at, dvec off)
 {
     const dvec x = corner_in_flat(s, at);
-    return dadd(beyond_whole(dtimes(s->row[0], x), off), beyond_whole(dtimes(s->row[1], x), off));
+    return deither(beyond_whole(dtimes(s->row[0], x), off), beyond_whole(dtimes(s->row[1], x), off));
 }
 
 /* Those of all corners are whole. */
@@ -98,7 +98,7 @@ static APART int are_placed_whole(const flat_body *s, dvec off)
 {
     const unsigned places = has_more_than_run(s) ? PLACES : RUN;
     dvec rest = dboth(0);
-    for (unsigned i = 0; i < places; i++) rest = dadd(rest, placed_beyond_whole(s, i, off));
+    for (unsigned i = 0; i < places; i++) rest = deither(rest, placed_beyond_whole(s, i, off));
     return dsame(rest, dboth(0));
 }
 
@@ -158,10 +158,10 @@ static APART int tell_flat_touching(const flat *f, const dfront *k, int deep, re
     dsight s = {.a = dboth(0), .v = k->way};
     double weight[3];
     if (k->n == 0 || k->steps == 0 || !weigh_flat(at, n, weight)) return 0;
-    dvec rest = dadd(beyond_whole(f->a.p, off), beyond_whole(f->b.p, off));
+    dvec rest = deither(beyond_whole(f->a.p, off), beyond_whole(f->b.p, off));
     for (int i = 0; i < n; i++) {
-        rest = dadd(rest, placed_beyond_whole(&f->a, at_in_a(at[i]->at), off));
-        rest = dadd(rest, placed_beyond_whole(&f->b, at_in_b(at[i]->at), off));
+        rest = deither(rest, placed_beyond_whole(&f->a, at_in_a(at[i]->at), off));
+        rest = deither(rest, placed_beyond_whole(&f->b, at_in_b(at[i]->at), off));
     }
     if (!dsame(rest, dboth(0))) return 0;
     const double sum = weight[0] + weight[1] + weight[2];
@@ -334,19 +334,18 @@ HOT int tell_walked_flat(const flat *f, dfront *k, enum halt at, int recalled, c
 }
 
 /* Where the first front is an edge, beyond which no corner is lower, that holds the origin: that the cores touch, as
- * tell_flat_touching has it. The edge's products are exact, so that they tell where on it the origin is. */
-static APART int touch_at_start(const flat *f, int steps, double height, const dsight *s, const dstart *t,
-                                const shape *a, const shape *b, cache *own, int deep, result *r)
+ * tell_flat_touching has it. The edge's products are exact, so that they tell where on it the origin is. From and to
+ * are its ends, which are made of one corner of a body and two of the other. */
+HOT int touch_at_start(const flat *f, unsigned from, unsigned to, int steps, double height, const dsight *s, int deep,
+                       result *r)
 {
-    const int is_b = dfirst(t->gain) < dsecond(t->gain);
+    const unsigned of_a = at_in_a(from), of_b = at_in_b(from), is_b = of_a == at_in_a(to);
     const dvec off = off_for(f);
-    dvec rest = dadd(beyond_whole(f->a.p, off), beyond_whole(f->b.p, off));
-    rest = dadd(rest, placed_beyond_whole(&f->a, t->of_a[0], off));
-    rest = dadd(rest, placed_beyond_whole(&f->b, t->of_b[0], off));
-    rest = dadd(rest, placed_beyond_whole(is_b ? &f->b : &f->a, is_b ? t->of_b[1] : t->of_a[1], off));
-    if (!dsame(rest, dboth(0)) || !spell_touching(f, steps, s, height, deep, r)) return 0;
-    if (own) keep_start(own, f, t, a, b);
-    return 1;
+    dvec rest = deither(beyond_whole(f->a.p, off), beyond_whole(f->b.p, off));
+    rest = deither(rest, placed_beyond_whole(&f->a, of_a, off));
+    rest = deither(rest, placed_beyond_whole(&f->b, of_b, off));
+    rest = deither(rest, placed_beyond_whole(is_b ? &f->b : &f->a, is_b ? at_in_b(to) : at_in_a(to), off));
+    return dsame(rest, dboth(0)) && spell_touching(f, steps, s, height, deep, r);
 }
 
 /* How far apart, or how deep, from the first front, which tells too little, in so many steps; v is its own. What has
@@ -391,16 +390,16 @@ HOT int tell_flat_start(const flat *f, dfront *k, const shape *a, const shape *b
     if (!(along > 0)) k->v = k->way;
     const double height = lowest_in_flat(f, k->v);
     const enum halt at = (near - height) * s.per > f->blur ? LOST : FOREMOST;
+    const int is_b = dfirst(t.gain) < dsecond(t.gain), on_edge = t.off == 0 && t.part > 0 && t.part < 1;
+    const unsigned from = t.of_a[0] + PLACES * t.of_b[0], to = t.of_a[!is_b] + PLACES * t.of_b[is_b];
     k->steps++;
-    if (at == FOREMOST && tell_flat_sight(f, k, &s, height * s.per, along, a, b, g, r)) {
+    if (at == FOREMOST &&
+        (on_edge && !(f->radius > 0) ? touch_at_start(f, from, to, k->steps, height, &s, g->deep, r)
+                                     : tell_flat_sight(f, k, &s, height * s.per, along, a, b, g, r))) {
         if (own) keep_start(own, f, &t, a, b);
         return 1;
     }
     const dstart start = t;
-    if (at == FOREMOST && t.off == 0 && t.part > 0 && t.part < 1 && !(f->radius > 0)) {
-        const dsight seen = s;
-        if (touch_at_start(f, k->steps, height, &seen, &start, a, b, own, g->deep, r)) return 1;
-    }
     return go_on_flat(f, k->v, k->steps, &start, a, b, own, g->deep, g->max_steps, r);
 }
 
@@ -510,10 +509,12 @@ HOT int tell_flat(const shape *a, const shape *b, cache *own, const goal *g, res
     flat f;
     dfront k;
     int steps = 0;
-    if (a->support == pub(support_box) && b->support == pub(support_box)) return 0; /* told by their axes */
-    if (tell_wide_sticks(a, b, g, r)) {
-        if (own) own->count = 0; /* there is nothing that a formula would start from */
-        return 1;
+    if (a->support != pub(support_points)) {
+        if (a->support == pub(support_box) && b->support == pub(support_box)) return 0; /* told by their axes */
+        if (tell_wide_sticks(a, b, g, r)) {
+            if (own) own->count = 0; /* there is nothing that a formula would start from */
+            return 1;
+        }
     }
     const int lent = own && lends(own, a, b);
     if (lent && own->count < 3 && !(own->reserved & UNDER) && tell_flat_again(a, b, own, g->sign_only, g->deep, r))
