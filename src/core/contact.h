@@ -588,6 +588,7 @@ static APART enum end fathom(depth *d, real *upper, real weight[DIM + 1])
     if (end == FAULT) return end;
     if (EXACT && end == STILL && g->exact && (g->tight || flat)) settle_depth(d, &end);
     const int proven = prove_grown(d, upper, &end), open = g->exact && end == STILL && is_open(d, proven, *upper);
+    if (end == OPEN && own.held && !flat && !d->dips) end = end_by_all(d, &own, upper);
     if (end == FAULT) return end;
     if (flat && own.held) stand_where_held(d->q, &own.at[0], weight);
     point_to(d, *upper, weight, flat, &end);

@@ -752,6 +752,16 @@ static void raise_kept(depth *d)
     if (d->least < REAL_MAX) raise(d->q, mul(d->least_way, -1), d->least_at);
 }
 
+/* A facet is done, though a corner lies beyond it: */
+#define WALLED_IN 2
+
+/* That corner lies so far beyond that it is for want of what was dropped to make room, not by noise, that new facets
+ * would be lower. */
+static int is_walled_in(const depth *d, const facet *f, const tip *t)
+{
+    return !d->g->exact && d->dropped.facets > 0 && rough_rise(f, t) > CLEAR;
+}
+
 /* Takes in the corner beyond the facet, or the facet is done. CLOSE: what lies there is of no account; the bound from
  * below is the facet's own then. OPEN: there is no room. */
 static enum end look_beyond(depth *d, facet *f)
@@ -759,8 +769,9 @@ static enum end look_beyond(depth *d, facet *f)
     tip t;
     if (!seek_along(d, f->n, &t)) return FAULT;
     if (is_bounded_by(d, f, &t)) return CLOSE;
-    enum growth grown = is_beyond(d, f, &t) ? grow(&d->p, f, &t) : LOWERED;
-    if (grown == LOWERED) f->done = 1;
+    const int beyond = is_beyond(d, f, &t);
+    const enum growth grown = beyond ? grow(&d->p, f, &t) : LOWERED;
+    if (grown == LOWERED) f->done = beyond && is_walled_in(d, f, &t) ? WALLED_IN : 1;
     return grown == FULL ? OPEN : STILL;
 }
 
@@ -1090,7 +1101,7 @@ static enum end deepen(depth *d)
         if (d->p.tips == d->p.most_tips) make_room(d);
         if (!d->floor || !d->floor->done) d->floor = lowest(&d->p); /* else nothing has changed */
         facet *f = d->floor;
-        if (f->done) return d->narrowed ? OPEN : STILL; /* a new facet by a wall may be lower, and no noise */
+        if (f->done) return d->narrowed || f->done == WALLED_IN ? OPEN : STILL;
         if (is_proven_as_asked(d, f)) return CLOSE;
         if (is_proven(d, f)) {
             if (!ask_floor_beside_dip(d, f)) return FAULT;
