@@ -14,16 +14,16 @@
 #define DIM VARIANT_DIM
 #if VARIANT_DIM == 3 && !VARIANT_FLOAT
 #define V(name) gjk3_##name
-static const uint64_t known[3] = {0x0068c7100a52d43e, 0x5f982e609b2c2620, 0xa87361a078b2c2e1};
+static const uint64_t known[3] = {0x0068c7100a52d43e, 0x5f982e609b2c2620, 0x2d61f908852d56e3};
 #elif VARIANT_DIM == 3
 #define V(name) gjk3f_##name
-static const uint64_t known[3] = {0xf5cdda6920206129, 0xaf4da97594e4e55d, 0xb3f1ed0031e5cb54};
+static const uint64_t known[3] = {0xf5cdda6920206129, 0xaf4da97594e4e55d, 0xbec5819e5c75685b};
 #elif !VARIANT_FLOAT
 #define V(name) gjk2_##name
 static const uint64_t known[3] = {0xd21dea2afb8d2d1a, 0xa0618e74e740d4bd, 0x2798a1ca31a9b3bf};
 #else
 #define V(name) gjk2f_##name
-static const uint64_t known[3] = {0x1d2279c7b6c22ef0, 0x29ff7100e0ad5ddb, 0x25178c612264ba96};
+static const uint64_t known[3] = {0x1d2279c7b6c22ef0, 0x29ff7100e0ad5ddb, 0x7460e7af7b723296};
 #endif
 #if VARIANT_FLOAT
 typedef float real;

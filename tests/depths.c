@@ -1380,9 +1380,9 @@ static void points_within_the_bracket(void **state)
         draw_any(&d, &drawn.b, round_kinds[below(&d, ROUND_KINDS)]);
         put_off(&d, between(&d, 0, 0.5));
         bind_pair(&drawn);
-        o.rel_tol = at % 3 == 0 ? (real)magnitude(&d, -5, 0) : 0;
-        o.abs_tol = at % 3 == 1 ? (real)magnitude(&d, -5, 0) : 0;
-        o.max_steps = at % 3 == 2 ? 1 + (uint32_t)below(&d, 25) : 0;
+        o.rel_tol = at % 4 == 0 ? (real)magnitude(&d, -5, 0) : 0;
+        o.abs_tol = at % 4 == 1 ? (real)magnitude(&d, -5, 0) : 0;
+        o.max_steps = at % 4 == 2 ? 1 + (uint32_t)below(&d, 25) : 0;
         ask(&o, &r);
         expect_points_within(&r);
         deep += r.upper < 0;
@@ -1391,6 +1391,35 @@ static void points_within_the_bracket(void **state)
     printf("%-6s points within: %ld overlap, %ld limits\n", VARIANT, deep, limits);
     assert_true(deep > at / 4 && limits > at / 100);
 }
+
+#if DIM == 3
+/* Discs of one middle, a little turned to each other: all ways out near both axes are about as short, and more facets
+ * are asked for than there is room for. What a wall keeps from being taken in is then no noise. */
+static void discs_across_each_other(void **state)
+{
+    long limits = 0;
+    (void)state;
+    p = &drawn;
+    for (at = 0; at < 4 * pairs_per_family; at++) {
+        V(result) r;
+        draws d = draws_from(seed, 2031, (uint64_t)at);
+        const double turn = between(&d, 0.0005, 0.1), s = sin(turn), c = cos(turn);
+        draw_any(&d, &drawn.a, DISC);
+        drawn.b = drawn.a;
+        for (int i = 0; i < 3; i++) {
+            const real *from = &drawn.a.pose.m[3 * i];
+            drawn.b.pose.m[3 * i] = (real)(c * (double)from[0] - s * (double)from[2]);
+            drawn.b.pose.m[3 * i + 2] = (real)(s * (double)from[0] + c * (double)from[2]);
+        }
+        bind_pair(&drawn);
+        ask(NULL, &r);
+        expect_points_within(&r);
+        limits += r.status == GJK_LIMIT;
+    }
+    printf("%-6s discs across each other: %ld limits\n", VARIANT, limits);
+    assert_true(limits > 0);
+}
+#endif
 
 /* Needles and plates all but on one spot, asked roughly: the points are as far apart as the bodies are deep, to what
  * the bracket leaves open, and whether they overlap is told whatever is asked. */
@@ -1920,15 +1949,14 @@ static void about_one_axis(void **state)
         tight += r.status == GJK_OK;
         widest = fmax(widest, in_u((quad)width_of(&r), span()));
         farthest = fmax(farthest, in_u(quad_abs((quad)r.value + (quad)depth), span()));
-        /* maps in float turn one axis hardly as the other: where that leaves a sister's dip no point, facets it is */
         open += r.status == GJK_LIMIT || width_of(&r) > 128 * U * span();
-        expect_answer("it is left open", &r, open == 0 || VARIANT_FLOAT);
+        expect_answer("it is left open", &r, open == 0);
         expect_answer("it is not so deep", &r, fabs((double)r.value + depth) <= 32 * U * span());
     }
     printf("%-6s about one axis: %ld deep, %ld as tight as rounding, %ld open, %.1f steps; widest %.0f u, off %.0f u\n",
            VARIANT, deep, tight, open, (double)steps / (double)deep, widest, farthest);
-    assert_true(is_share(deep, 16 * pairs_per_family, 0.6) && is_share(tight, deep, 0.97) &&
-                is_share(deep - open, deep, 0.998) && steps < (VARIANT_FLOAT ? 32 : 5) * deep);
+    assert_true(is_share(deep, 16 * pairs_per_family, 0.6) && is_share(tight, deep, 0.98) &&
+                steps < (VARIANT_FLOAT ? 6 : 5) * deep);
 }
 
 /* Boxes and segments in cylinders and discs, whose heights have edges and one disc: none takes a polytope, as a rule.
@@ -1947,7 +1975,8 @@ static void edges_and_one_disc(void **state)
     }
     printf("%-6s edges and one disc: %ld deep, %ld as tight as rounding, %.1f steps\n", VARIANT, deep, tight,
            (double)steps / (double)deep);
-    assert_true(is_share(deep, 8 * pairs_per_family, 0.4) && is_share(tight, deep, 0.98) && steps < 6 * deep);
+    assert_true(is_share(deep, 8 * pairs_per_family, 0.4) && is_share(tight, deep, 0.98) &&
+                steps < (VARIANT_FLOAT ? 6 : 5) * deep);
 }
 
 /* Asked so roughly, the points go with the bracket: as deep as it says, and aside by no more than the root of its
@@ -2976,6 +3005,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(cones_in_each_other),
         cmocka_unit_test(bodies_upright),
         cmocka_unit_test(about_one_axis),
+        cmocka_unit_test(discs_across_each_other),
         cmocka_unit_test(edges_and_one_disc),
         cmocka_unit_test(discs_of_one_middle),
         cmocka_unit_test(hardly_any_radius),

@@ -116,7 +116,8 @@ static int distance_status(const result *r, const options *o, enum end end, cons
     if (q->told && end == STILL && !tolerant) return GJK_OK;
     real level = level_of(&q->d, radius, 0);
     if (narrow(r, o, deep) || end == WITHIN) return GJK_OK;
-    if (end == OPEN) return GJK_LIMIT;
+    const int enough = deep && r->upper < 0 && r->upper - r->lower <= q->enough * -r->lower;
+    if (end == OPEN && !enough) return GJK_LIMIT;
     return !tolerant && tight_enough(r, &q->d, radius, off, level) ? GJK_OK : GJK_FLOOR;
 }
 
@@ -438,13 +439,27 @@ static APART int answer_penetration_of_balls(search *q, const shape *a, const sh
     return answer_penetration(q, k.a, k.b, k.off, given, out);
 }
 
-GJK_API int pub(penetration)(const shape *a, const shape *b, const options *given, result *out)
+/* A depth may be open by that share of it. */
+static inline int ask_penetration(const shape *a, const shape *b, const options *given, real enough, result *out)
 {
     search q;
+    q.enough = enough;
     if (tell_plainly(&q, a, b, given, 0, 1, out)) return out->status = GJK_OK;
     if (may_have_balls(a, b, given)) return answer_penetration_of_balls(&q, a, b, given, out);
     return answer_penetration(&q, a, b, 0, given, out);
 }
+
+GJK_API int pub(penetration)(const shape *a, const shape *b, const options *given, result *out)
+{
+    return ask_penetration(a, b, given, 0, out);
+}
+
+#if REAL_IS_DOUBLE
+int pub(penetration_for_float)(const shape *a, const shape *b, const options *given, result *out)
+{
+    return ask_penetration(a, b, given, (real)0x1p-26, out);
+}
+#endif
 #endif
 
 #endif

@@ -189,14 +189,19 @@ static real askew_of(const bulk *of)
     return sum * (1 + 16 * UNIT);
 }
 
-/* By so much a limb that is joined may not be as long as both. */
-static inline real off_in_length(const limb *l) { return l->askew > 0 ? 12 * UNIT * l->size : 0; }
+/* By so much a limb may not be as long as both, if another is joined to it. */
+static real off_in_length(const bulk *of, int at)
+{
+    for (int i = of->limbs; i < of->limbs + of->joined; i++)
+        if (of->limb[i].mate == at) return 12 * UNIT * of->limb[at].size;
+    return 0;
+}
 
 /* What joints do to a floor. */
 static real off_by_joints(const bulk *of)
 {
     real off = askew_of(of);
-    for (int i = 0; i < of->limbs; i++) off += off_in_length(&of->limb[i]);
+    for (int i = 0; i < of->limbs; i++) off += off_in_length(of, i);
     return off;
 }
 
@@ -241,7 +246,7 @@ static real floor_of_one_edge(const circles *all)
     const real mean = (dot2(u, u) + dot2(v, v)) / 2, half = u.x * u.x + v.x * v.x - mean, mixed = u.x * u.y + v.x * v.y;
     const real least = mean - root(half * half + mixed * mixed), off = length(all->of->middle);
     if (!(2 * least > mean)) return -REAL_MAX;
-    const real charge = UNIT * (24 * (l->size + off) + 2) + off_in_length(l);
+    const real charge = UNIT * (24 * (l->size + off) + 2) + off_in_length(all->of, all->disc);
     const real around = root(least) - root(dot2(c->middle, c->middle)) - charge - askew_of(all->of);
     return smaller(around, all->ends - all->off);
 }

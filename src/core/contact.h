@@ -320,8 +320,9 @@ static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
     const real lower = q->lower;
     const vec normal = q->normal;
     const int taken = take_dip(d, b, f), bounded = taken >= 0 && f->held > CLEAR; /* of all ways */
+    const int told = taken > 0 && f->everywhere;
     if (taken < 0) return -1;
-    if (bounded && !(taken && f->everywhere)) {
+    if (bounded && !told) {
         all->held = 1;
         f->everywhere = last || is_as_asked_by(d, f, -f->held);
         if (taken && (f->everywhere || !(b->floor > 0))) /* else points would not go with it */
@@ -335,7 +336,8 @@ static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
         q->lower = f->below;
         q->normal = f->n;
     }
-    if (bounded && b->level && f->everywhere && f->below >= q->lower - larger(2 * q->d.doubt, -f->held - f->below)) {
+    if (bounded && (told || b->level) && f->everywhere &&
+        f->below >= q->lower - larger(2 * q->d.doubt, -f->held - f->below)) {
         q->lower = f->below; /* another way is as good, as far as can be told: normal and points go with this */
         q->normal = f->n;
     }
@@ -349,23 +351,37 @@ static int fathom_by(depth *d, dips *all, bent *b, real *upper, int last)
     return 0;
 }
 
+static inline real width_of_dip(const dip *f) { return -f->below - f->floor; }
+
+/* The dip, by which the depth is told, leaves open no more than rounding does, or than is asked. */
+static int is_told_narrowly(const depth *d, const dip *f, real upper)
+{
+    const real high = smaller(upper, -f->floor);
+    return high - d->q->lower <= 4 * d->q->d.doubt || is_as_asked(d, d->q->lower, high);
+}
+
 /* The depth by a dip alone, before there is a surface; or at last, where none has come to an end. How it is curved
  * costs less than to go around circles, which may tell more. 0: none tells it. -1: a support's answer was none. */
 static int fathom_by_dip(depth *d, dips *all, real *upper, int last)
 {
     bent b;
+    search *q = d->q;
     int told = 0;
     if (!ROUND || !all) return 0;
-    if (d->q->steps < d->g->max_steps && find_curved_dip(d, &b)) told = fathom_by(d, all, &b, upper, last);
-    const int narrow = *upper - d->q->lower <= 4 * d->q->d.doubt || is_as_asked(d, d->q->lower, *upper);
-    if (told < 0 || (told && narrow)) return told;
-    if (d->q->steps >= d->g->max_steps || !find_dip_by_circles(d, &b)) return told;
+    if (q->steps < d->g->max_steps && find_curved_dip(d, &b)) told = fathom_by(d, all, &b, upper, last);
+    if (told < 0 || (told && is_told_narrowly(d, all->best, *upper))) return told;
+    if (q->steps >= d->g->max_steps || !find_dip_by_circles(d, &b)) return told;
     if (!told) return fathom_by(d, all, &b, upper, last);
     dip *at = &all->at[last ? MOST_DIPS : 0];
     const dip before = *at;
+    const real lower = q->lower;
+    const vec normal = q->normal;
     const int more = fathom_by(d, all, &b, upper, last);
-    if (more == 0) *at = before;
-    return more == 0 ? told : more;
+    if (more < 0 || width_of_dip(at) < width_of_dip(&before)) return more;
+    *at = before;
+    q->lower = lower;
+    q->normal = normal;
+    return told;
 }
 
 /* The points are those of one corner. */
@@ -466,8 +482,8 @@ static real near_of(const depth *d, real upper, enum end end)
     return 2 * value - q->lower;
 }
 
-/* Of the tips, and of the corners along the dips that there have been, the one that lies farther along n, if any does.
- */
+/* Of the tips, of the corners along the dips that there have been, and of the one along the way that is known best, the
+ * one that lies farther along n, if any does. */
 static void take_farther(const depth *d, vec n, tip *top)
 {
     const int seen = !d->seen ? 0 : d->seen->n > 0 ? d->seen->n : d->seen->held;
@@ -475,6 +491,7 @@ static void take_farther(const depth *d, vec n, tip *top)
         if (dot(n, d->p.tip[k].w) > dot(n, top->w)) *top = d->p.tip[k];
     for (int i = 0; i < seen; i++)
         if (dot(n, d->seen->at[i].corner.w) > dot(n, top->w)) *top = tip_of(&d->seen->at[i].corner);
+    if (d->has_foremost && dot(n, d->foremost.w) > dot(n, top->w)) *top = d->foremost;
 }
 
 /* The points that the weights single out are short of the bound from above along the normal, where a tolerance or the
@@ -519,7 +536,8 @@ static void point_to(depth *d, real upper, real weight[DIM + 1], int flat, enum 
     if (*end == OPEN) turn_to_normal(d);
     if (d->settled || *end == OPEN) hand_over(d, weight);
     else point_out(d, weight);
-    if (!d->settled && (*end == OPEN || d->g->abs_tol > 0 || d->g->rel_tol > 0)) reach_out(d, upper, weight);
+    const int tolerant = d->g->abs_tol > 0 || d->g->rel_tol > 0 || q->enough > 0;
+    if (!d->settled && (*end == OPEN || tolerant)) reach_out(d, upper, weight);
 }
 
 /* Grows the surface till nothing lies beyond the lowest facet; how that ended. */

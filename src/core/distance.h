@@ -98,10 +98,11 @@ typedef struct search {
     trail trail;
 #endif
     struct first_dip *first_dip; /* where it is kept (round.h) */
-    int turned; /* not walked, but turned to a dip of the heights that seems to be a way out; below 0: never again */
-    int dug;    /* so many corners were looked at from there in vain (stride.h); -1: that is still to be tried */
-    int stood;  /* the corner in the spare slot was sought in haste, and lies no lower along v */
-    int kept;   /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
+    int turned;  /* not walked, but turned to a dip of the heights that seems to be a way out; below 0: never again */
+    int dug;     /* so many corners were looked at from there in vain (stride.h); -1: that is still to be tried */
+    int stood;   /* the corner in the spare slot was sought in haste, and lies no lower along v */
+    int kept;    /* the cache is to stay as it is: nothing vouches for its corners, nor is against them */
+    real enough; /* a depth may be open by this share of it, whatever is asked; 0, as a rule: by none */
 } search;
 
 /* |v| is below a sixteenth of a rounding of the frame, which is of size 1 to 2: it has no direction. Not as much as

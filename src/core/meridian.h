@@ -26,11 +26,13 @@ typedef struct meridian {
 
 /* ---- the axis ---- */
 
-/* As long as 1 can be. */
+/* As long as 1 can be: what a rounded one is too long, to twice the digits, is taken off. */
 static inline vec to_unit(vec x)
 {
     const vec n = mul(x, 1 / length(x));
-    return mul(n, (real)1.5 - dot(n, n) / 2);
+    twin more = {-1, 0};
+    for (int i = 0; i < DIM; i++) gather(&more, square_of(n.c[i]));
+    return sub(n, mul(n, (more.high + more.low) / 2));
 }
 
 /* The row of an ellipsoid that is the least like the others, by their squares, and how much so. */
@@ -230,7 +232,7 @@ static int draw_meridian(circles *all, const bulk *of)
     }
     all->off = charge_meridian(&m, of, all->least);
     all->simple = m.ovals ? -REAL_MAX : all->least - all->off;
-    all->level = (m.far <= all->least / 16) + (m.far <= all->least / 1024);
+    all->level = (m.far <= all->least / 16) + (m.far <= all->least / 1024 && m.ovals < of->limbs);
     return 1;
 }
 
@@ -351,6 +353,14 @@ static void go_down(circles *all, real spare, bent *b)
     stand_about_axis(all, b);
 }
 
+/* Ways around n are as level as can be said, unless n itself is all but along the axis: nothing is level around that.
+ */
+static int level_at(const circles *all, vec n)
+{
+    const real along = all->level ? dot(n, all->at[0].e[1]) : 1;
+    return 1 - along * along > (real)0x1p-12 ? all->level : 0;
+}
+
 /* Finds the least height of all; of edges and a disc from a dip that is known, if any. 0: it is not proven to be; else
  * b's floor is what heights are at least. */
 static int find_least_of_all(const bulk *of, const bent *known, bent *b)
@@ -364,7 +374,7 @@ static int find_least_of_all(const bulk *of, const bent *known, bent *b)
         if (i > 0 || !has_dip || all.least < height_of_bulk(of, b->n) - spare) go_down(&all, spare, b);
         const real high = smaller(height_of_bulk(of, b->n), all.least) - spare;
         if (!(high > all.off)) return 0;
-        b->level = all.level;
+        b->level = level_at(&all, b->n);
         if (all.simple >= high - all.off) {
             b->floor = all.simple;
             return 1;

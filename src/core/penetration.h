@@ -48,6 +48,8 @@ typedef struct depth {
     real least;       /* the least height seen of A - B, by rounded numbers, */
     vec least_way;    /*   of known corners also the way along which, and the corner there */
     vec least_at;
+    tip foremost; /* of corners that are not known the one along the way that is known best, if it was asked here; */
+    int has_foremost;   /*   which it was */
     int closings;       /* so often the lowest facet has been as good as rounding can prove */
     outlook sight;      /* and what is looked along, */
     twin floor_there;   /*   and of the points that are known to it the lowest height */
@@ -72,6 +74,7 @@ static void begin_depth(depth *d, search *q, const shape *a, const shape *b, con
     d->dropped = (tally){.least = REAL_MAX};
     d->dips = NULL;
     d->seen = NULL;
+    d->has_foremost = 0;
     d->along = d->sight.n = d->least_way = d->least_at = axis(0, 0);
     d->below = 0;
     d->least = REAL_MAX;
@@ -100,11 +103,19 @@ static int seek_along(depth *d, vec n, tip *t)
     return 1;
 }
 
+static void keep_foremost(depth *d, const tip *t)
+{
+    d->foremost = *t;
+    d->has_foremost = 1;
+}
+
 /* The same, and the bound from below that comes of it. */
 static int ask_along(depth *d, vec n, tip *t)
 {
+    const real before = d->q->lower;
     if (!seek_along(d, n, t)) return 0;
     raise(d->q, mul(n, -1), t->w);
+    if (d->q->lower > before) keep_foremost(d, t);
     return 1;
 }
 
@@ -668,7 +679,7 @@ static int close_in(depth *d, const facet *f)
 static inline int is_as_asked(const depth *d, real lower, real upper)
 {
     const goal *g = d->g;
-    return upper - lower <= g->abs_tol + g->rel_tol * (g->radius - upper) - 32 * UNIT;
+    return upper - lower <= g->abs_tol + larger(g->rel_tol, d->q->enough) * (g->radius - upper) - 32 * UNIT;
 }
 
 /* The same of the dip's, whose corner stands no farther off its way than the root of what that leaves open. */
@@ -742,6 +753,8 @@ static int is_bounded_by(depth *d, const facet *f, const tip *t)
     if (q->lower < best && (!close || lowest_dip(d))) { /* a facet's own normal and bound end it together, or a dip's */
         q->lower = best;
         q->normal = normal;
+    } else {
+        keep_foremost(d, t);
     }
     return close;
 }
@@ -943,7 +956,7 @@ static int set_floor(dip *f, const bulk *of, bent *b, real h, int told)
  */
 static real told_width(const depth *d, const bent *b)
 {
-    const real usual = (b->level ? 64 : 4) * d->q->d.doubt;
+    const real usual = larger((b->level ? 64 : 4) * d->q->d.doubt, 16 * d->q->enough * b->floor);
     return b->level < 2 ? usual : larger(usual, (real)0x1p-20 * b->floor);
 }
 
@@ -989,7 +1002,9 @@ static int take_dip(depth *d, bent *b, dip *f)
     f->sway = b->sway;
     f->slope = slope_of(b);
     const int told = is_told_by_circles(d, f, b);
-    if (set_floor(f, &d->dips->first->bulk, b, h, told) && (f->far > 0 || f->below >= lower - 4 * q->d.doubt)) return 1;
+    const int known = set_floor(f, &d->dips->first->bulk, b, h, told);
+    const real spare = told ? larger(4 * q->d.doubt, -f->below - f->held) : 4 * q->d.doubt;
+    if (known && (f->far > 0 || f->below >= lower - spare)) return 1;
     q->lower = lower; /* no facet may be near that n, for points to go with it */
     q->normal = normal;
     return 0;

@@ -10,6 +10,12 @@
 #include "round.h"
 #include "shapes.h"
 
+/* Of the sister in double, for float alone: as penetration, but a depth may be open by a quarter of float's roundoff,
+ * which is more than float shows of it. How far apart is told as ever, and so as distance tells it. */
+#if REAL_IS_DOUBLE
+int pub(penetration_for_float)(const shape *a, const shape *b, const options *given, result *out);
+#endif
+
 #if REAL_IS_DOUBLE || defined(GJK_ALONE)
 #define HAS_SISTER 0
 
@@ -40,6 +46,9 @@ static int ask_sister_first(search *q, const shape *a, const shape *b, const opt
 #else
 #include "../../include/gjk/gjk3.h"
 #endif
+
+int sister(penetration_for_float)(const sister(shape) * a, const sister(shape) * b, const sister(options) * given,
+                                  sister(result) * out);
 
 typedef struct widened {
     sister(shape) shape;
@@ -208,9 +217,10 @@ static void take_better(result *r, const sister(result) * hers, real lower, real
 static int ask_of_wide(const sister(shape) * a, const sister(shape) * b, const sister(options) * asked, const goal *g,
                        sister(result) * hers)
 {
-    return g->sign_only ? sister(intersect)(a, b, asked, hers)
-           : g->deep    ? sister(penetration)(a, b, asked, hers)
-                        : sister(distance)(a, b, asked, hers);
+#if DEPTHS
+    if (g->deep) return sister(penetration_for_float)(a, b, asked, hers);
+#endif
+    return (g->sign_only ? sister(intersect) : sister(distance))(a, b, asked, hers);
 }
 
 /* Puts the question to the sister. Her status; below 0: she can't be asked or has no answer. */
@@ -280,12 +290,16 @@ static APART int ask_sister_alone(search *q, const shape *a, const shape *b, con
  * so many corners of float's take, wherever it lies. */
 static void lend_room(sister(options) * asked, const options *o)
 {
+#if DEPTHS
     if (!o->workspace) return;
     const size_t bytes = bytes_for(tips_in(o->workspace_bytes)) - sizeof(real);
     const size_t skew = (uintptr_t)o->workspace % sizeof(double);
     if (bytes < sister(workspace_size)(USUAL_TIPS + 1)) return;
     asked->workspace = (char *)o->workspace + skew;
     asked->workspace_bytes = (uint32_t)bytes;
+#else
+    (void)asked, (void)o;
+#endif
 }
 
 /* Smooth bodies, of which float leaves more doubt than is asked as a rule: all of the answer is hers, however far she

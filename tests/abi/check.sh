@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # What a compiled library shows, holds and asks for. NM and READELF name the tools.
 #   check.sh layout RECORD PROGRAM HEADER...   PROGRAM prints RECORD, and RECORD names every struct of the headers
-#   check.sh exports LIST -D|-g LIBRARY   it exports the names in LIST, no more and no fewer (-D: shared, -g: static)
+#   check.sh exports LIST... -D|-g LIBRARY  it exports the names in these, no more and no fewer (-D: shared, -g: static)
 #   check.sh undefined LIBRARY            it asks its host for square roots, block copies and their comparison only
 #   check.sh data OBJECT...               it holds no data that can be written, before or after relocation
 #   check.sh soname NAME LIBRARY          it calls itself NAME and depends on libc and libm only
@@ -25,8 +25,10 @@ layout)
     [ "$named" = "$declared" ] || { printf 'recorded:\n%s\ndeclared:\n%s\n' "$named" "$declared"; exit 1; }
     ;;
 exports)
-    found=$("$NM" "$2" --defined-only "$3" | awk 'NF == 3 { print $3 }' | sort)
-    printf '%s\n' "$found" | diff -u "$1" -
+    known=$(while [ -f "$1" ]; do cat "$1"; shift; done | sort)
+    while [ -f "$1" ]; do shift; done
+    found=$("$NM" "$1" --defined-only "$2" | awk 'NF == 3 { print $3 }' | sort)
+    [ "$found" = "$known" ] || { printf 'exported:\n%s\nknown:\n%s\n' "$found" "$known"; exit 1; }
     ;;
 undefined)
     # The second list is what compilers and the C run-time's start files put into any shared library.

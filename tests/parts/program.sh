@@ -39,6 +39,7 @@ refused() { # WHAT VARIANTS WITHOUT OPTION...
 }
 
 runs embedded.c gjk2f 'SHORTCUTS;ROUND;DEPTH;EXACT' "$@"
+runs embedded.c 'gjk2;gjk2f' DEPTH "$@" # float beside its sister
 runs penetration.c 'gjk3;gjk2f' ROUND "$@"
 
 configure penetration.c gjk3 DEPTH "$@"
