@@ -1392,6 +1392,50 @@ static void points_within_the_bracket(void **state)
     assert_true(deep > at / 4 && limits > at / 100);
 }
 
+#if DIM == 3 && !VARIANT_FLOAT
+/* Bodies whose axes are all but one: a meridian tells their depth no better than the axes are turned to each other, and
+ * that is left to facets or to curvature where these come to an end. */
+static void all_but_about_one_axis(void **state)
+{
+    static const gjk3_cylinder thick = {1, 0.25}, flat = {1.5, 0.2};
+    static const gjk3_cone cone = {1, 0.3};
+    static const gjk3_disc disc = {1};
+    static const gjk3_ellipsoid squat = {{1, 1, 0.4}}, tall = {{1, 1, 2}}, taller = {{1.5, 1.5, 3}},
+                                egg = {{1, 1, 1.7}};
+    static const struct {
+        gjk3_shape a, b;
+        double along;
+    } pairs[] = {
+        {{.support = gjk3_support_cylinder, .data = &thick}, {.support = gjk3_support_cylinder, .data = &flat}, 0.05},
+        {{.support = gjk3_support_cone, .data = &cone}, {.support = gjk3_support_cylinder, .data = &flat}, 0.05},
+        {{.support = gjk3_support_disc, .data = &disc}, {.support = gjk3_support_cylinder, .data = &flat}, 0.05},
+        {{.support = gjk3_support_ellipsoid, .data = &squat}, {.support = gjk3_support_cylinder, .data = &flat}, 0.05},
+        {{.support = gjk3_support_ellipsoid, .data = &tall}, {.support = gjk3_support_ellipsoid, .data = &taller}, 0},
+        {{.support = gjk3_support_ellipsoid, .data = &egg}, {.support = gjk3_support_ellipsoid, .data = &egg}, 0},
+    };
+    double widest = 0;
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        for (int k = 6; k < 14; k++) {
+            for (int tolerant = 0; tolerant < 2; tolerant++) {
+                const double turn = pow(10, -k), s = sin(turn), c = cos(turn);
+                const gjk3_pose pose = {{c, 0, s, 0, 1, 0, -s, 0, c}, {0, 0, pairs[i].along}};
+                gjk3_options o = default_options();
+                gjk3_shape b = pairs[i].b;
+                gjk3_result r;
+                o.rel_tol = tolerant ? 1e-10 : 0;
+                b.pose = &pose;
+                assert_true(gjk3_penetration(&pairs[i].a, &b, &o, &r) >= 0 && r.upper < 0);
+                const double open = (r.upper - r.lower) / -r.lower;
+                assert_true(open <= (tolerant ? 1e-10 : 5e-13));
+                widest = fmax(widest, tolerant ? 0 : open);
+            }
+        }
+    }
+    printf("gjk3   all but about one axis: open by %.2g of the depth at most\n", widest);
+}
+#endif
+
 #if DIM == 3
 /* Discs of one middle, a little turned to each other: all ways out near both axes are about as short, and more facets
  * are asked for than there is room for. What a wall keeps from being taken in is then no noise. */
@@ -3006,6 +3050,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(bodies_upright),
         cmocka_unit_test(about_one_axis),
         cmocka_unit_test(discs_across_each_other),
+#if !VARIANT_FLOAT
+        cmocka_unit_test(all_but_about_one_axis),
+#endif
         cmocka_unit_test(edges_and_one_disc),
         cmocka_unit_test(discs_of_one_middle),
         cmocka_unit_test(hardly_any_radius),
