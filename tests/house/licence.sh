@@ -4,7 +4,7 @@
 set -eu
 files=$(git ls-files --cached --others --exclude-standard)
 [ -n "$files" ]
-bare=$(printf '%s\n' "$files" | grep -vE '(^|/)(LICENSE|py\.typed|layout-lp64\.txt|symbols\.txt)$|/licences/|^fuzz/corpus/|\.(json|jsonl|png|svg)$' |
+bare=$(printf '%s\n' "$files" | grep -vE '(^|/)(LICENSE|py\.typed|layout-lp64\.txt|symbols\.txt|inner\.txt)$|/licences/|^fuzz/corpus/|\.(json|jsonl|png|svg)$' |
     while read -r file; do
         [ ! -f "$file" ] || head -n 3 "$file" | grep -q 'SPDX-License-Identifier: ' || echo "$file"
     done)
