@@ -11,7 +11,7 @@
 #include "shapes.h"
 
 /* Of the sister in double, for float alone: as penetration, but a depth may be open by a quarter of float's roundoff,
- * which is more than float shows of it. How far apart is told as ever, and so as distance tells it. */
+ * which float does not show. How far apart is told as ever, and so as distance tells it. */
 #if REAL_IS_DOUBLE
 int pub(penetration_for_float)(const shape *a, const shape *b, const options *given, result *out);
 #endif
